@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Data-parallel loops over contiguous ranges; one oneTBB arena for the whole program.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace catoptric::core {
+
+/// Number of threads that parallelFor uses. 0 given to setThreadCount means all hardware threads.
+[[nodiscard]] int threadCount();
+void setThreadCount(int count);
+
+/// Calls body(begin, end) on disjoint ranges that cover [0, count), each at most about `grain` long, on all
+/// threads of the arena; returns when all are done. An exception thrown by body is rethrown here.
+void parallelFor(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body);
+
+}  // namespace catoptric::core

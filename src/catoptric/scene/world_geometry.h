@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole scene as one set of contiguous world-space arrays. The rasterizer, the ray tracer and the virtual
+// objects all read these same floats, so that their pictures can agree to the pixel.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "catoptric/core/math.h"
+#include "catoptric/core/seen.h"
+#include "catoptric/scene/scene.h"
+
+namespace catoptric::scene {
+
+/// How a reflector is treated. `Plane` is a planar mirror; everything else goes by its mesh.
+enum class ReflectorShape : std::uint8_t { Plane, Sphere, Cylinder, Cone, Mesh };
+
+/// A mirror surface: one flat facet, or one smoothly connected curved piece of an instance.
+struct Reflector {
+  std::string name;                   ///< instance name, "#k" appended when the instance has several
+  ReflectorShape shape = ReflectorShape::Mesh;
+  std::string reason;                 ///< why it is one: "material: metallic 1, roughness 0", "extras.catoptric", ...
+  core::Plane plane;                  ///< valid when shape == Plane; normal on the bright side
+  bool doubleSided = false;
+  std::uint32_t object = core::kNoId; ///< index of the instance
+  int material = -1;
+  std::uint32_t part = 0;             ///< index into WorldGeometry::parts: its triangles
+  dvec3 centre{0};                    ///< centre of its bounding sphere
+  double radius = 0;
+  double areaWorld = 0;
+  double fitError = 0;                ///< largest distance of a vertex from the recognised shape, world units
+  bool isConvex = false;              ///< convex seen from its bright side (to within tessellation)
+};
+
+/// A run of triangles with one material, one object and at most one reflector.
+struct Part {
+  std::uint32_t firstIndex = 0, indexCount = 0;    ///< into WorldGeometry::indices
+  std::uint32_t firstVertex = 0, vertexCount = 0;  ///< its vertices; not shared with other parts
+  int material = -1;
+  std::uint32_t object = 0;                        ///< index into Scene::instances
+  std::uint32_t reflector = core::kNoId;           ///< index into WorldGeometry::reflectors
+  bool shell = false;                              ///< shell of the room, see methods.md section 6
+};
+
+struct WorldGeometry {
+  std::vector<vec3> positions;
+  std::vector<vec3> normals;
+  std::vector<vec4> tangents;           ///< zero where absent
+  std::vector<vec2> uv0, uv1;           ///< zero where absent
+  std::vector<vec4> colors;             ///< one where absent
+  std::vector<std::uint32_t> indices;   ///< winding already flipped for negative scales
+  std::vector<std::uint32_t> triangleParts;  ///< part of each triangle
+  std::vector<Part> parts;
+  std::vector<Reflector> reflectors;
+  core::Box bounds;
+  std::uint64_t droppedTriangles = 0;   ///< degenerate ones
+
+  [[nodiscard]] std::size_t triangleCount() const { return indices.size() / 3; }
+};
+
+struct ReflectorOptions {
+  float minMetallic = 0.9f;      ///< --reflector-metallic
+  float maxRoughness = 0.05f;    ///< --reflector-roughness
+  double planeTolerance = 1e-4;  ///< flat if no vertex leaves the plane by more than this times the radius and ...
+  double normalTolerance = 2e-3; ///< ... no vertex normal by more than this angle, radians
+  std::vector<std::string> only; ///< if not empty: names (of reflectors, instances or materials) to keep (--reflector)
+};
+
+/// Flattens instances into world space, splits off the reflectors and recognises their shape. Triangles of zero
+/// area are dropped and counted. Deterministic.
+[[nodiscard]] WorldGeometry makeWorldGeometry(const Scene& scene, const ReflectorOptions& options = {});
+
+}  // namespace catoptric::scene
