@@ -17,6 +17,10 @@ endif()
 function(catoptric_library NAME)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${NAME}/*.cpp
        ${CMAKE_CURRENT_SOURCE_DIR}/${NAME}/*.h)
+  if(NOT sources MATCHES "\\.cpp")  # a folder of headers only still is one target
+    file(WRITE ${CMAKE_BINARY_DIR}/${NAME}_empty.cpp "")
+    list(APPEND sources ${CMAKE_BINARY_DIR}/${NAME}_empty.cpp)
+  endif()
   add_library(catoptric_${NAME} STATIC ${sources})
   set_target_properties(catoptric_${NAME} PROPERTIES LINKER_LANGUAGE CXX POSITION_INDEPENDENT_CODE ON)
   # The folder is visible as "catoptric/NAME/..." through a link of its own, so that an include of a folder that is

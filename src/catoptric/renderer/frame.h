@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// A frame by any method: primary image, one reflection image per level of mirrors, composition. The entry point of
+// the library: load a scene, make a Renderer, render.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "catoptric/core/image.h"
+#include "catoptric/core/seen.h"
+#include "catoptric/scene/camera_frame.h"
+#include "catoptric/scene/environment.h"
+#include "catoptric/scene/scene.h"
+#include "catoptric/scene/world_geometry.h"
+
+namespace catoptric::renderer {
+
+/// How reflections are made. None: mirrors show the environment only, as they do after the last bounce.
+enum class Method { Auto, None, Environment, Virtual, RayTrace };
+/// How the Virtual method finds reflection points on curved mirrors.
+enum class Solver { Auto, Explosion, Refined };
+
+/// Names as on the command line.
+[[nodiscard]] std::string_view methodName(Method method);
+[[nodiscard]] std::string_view solverName(Solver solver);
+
+struct FrameOptions {
+  Method method = Method::Auto;
+  Solver solver = Solver::Auto;
+  int widthPx = 960, heightPx = 720;
+  int bounces = 1;
+  int samples = 1;               ///< per pixel, for radiance; what is seen is always sampled at the pixel centre
+  double maxErrorPx = 0.5;       ///< aim of the tessellation of reflected objects
+  bool boxCorrected = true;      ///< Environment: parallax-corrected by the box of the room; false: plain
+  int environmentMapSize = 512;  ///< Environment: edge of a cube face, texels
+  bool withSeen = true;          ///< read back what is seen at each pixel
+};
+
+struct FrameTimings {
+  double totalMs = 0;            ///< the frame, without reading it back
+  double primaryMs = 0;          ///< the picture without reflections
+  double reflectionMs = 0;       ///< everything else
+  double virtualVerticesMs = 0;  ///< of which: finding reflection points
+};
+
+struct FrameCounters {
+  std::uint64_t virtualVertices = 0;     ///< reflection points sought
+  std::uint64_t virtualTriangles = 0;    ///< drawn into reflection images
+  std::uint64_t reflectorsDrawn = 0, reflectorsCulled = 0;
+  std::uint64_t rays = 0;                ///< RayTrace only
+};
+
+struct Frame {
+  core::ImageRgbaF radiance;      ///< linear; alpha 1 (0 never occurs: the environment is behind everything)
+  core::SeenImage seen;           ///< empty unless asked for
+  core::FootprintImage footprints;  ///< RayTrace only
+  FrameTimings timings;
+  FrameCounters counters;
+};
+
+/// Why a reflector is drawn the way it is; for `info`.
+struct MethodChoice {
+  Method method = Method::Virtual;
+  Solver solver = Solver::Refined;
+  std::string reason;
+};
+
+/// Owns the GL context (made on first need) and all buffers of one scene. Not thread-safe.
+class Renderer {
+ public:
+  /// Arguments must outlive the renderer.
+  Renderer(const scene::Scene& scene, const scene::WorldGeometry& geometry, const scene::Environment& environment);
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  /// Throws core::Error("gl.*") when there is no usable GL, with the remedy.
+  [[nodiscard]] Frame render(const scene::Camera& camera, const FrameOptions& options);
+
+  /// What `auto` picks for a reflector.
+  [[nodiscard]] static MethodChoice chooseMethod(const scene::Reflector& reflector);
+
+  /// "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 3.3 core, Mesa 22.3.6"; makes the context.
+  [[nodiscard]] std::string describeGl();
+  [[nodiscard]] std::string describeRayTracer();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace catoptric::renderer
