@@ -24,6 +24,8 @@ struct Reflector {
   std::string reason;                 ///< why it is one: "material: metallic 1, roughness 0", "extras.catoptric", ...
   core::Plane plane;                  ///< valid when shape == Plane; normal on the bright side
   bool doubleSided = false;
+  float reflectivity = 1;             ///< Surface::reflectivity for its mirror lobe; 0 when it mirrors by clearcoat
+  float clearcoat = 0;                ///< Surface::clearcoat; 0 unless it mirrors by clearcoat
   std::uint32_t object = core::kNoId; ///< index of the instance
   int material = -1;
   std::uint32_t part = 0;             ///< index into WorldGeometry::parts: its triangles
@@ -69,7 +71,9 @@ struct ReflectorOptions {
 };
 
 /// Flattens instances into world space, splits off the reflectors and recognises their shape. Triangles of zero
-/// area are dropped and counted. Deterministic.
+/// area, with a non-finite vertex or a coordinate beyond 1e15 are dropped and counted. Part::material is never -1
+/// unless the scene has no materials. Deterministic. Throws core::Error("reflector.unknown") when a name in
+/// `options.only` matches nothing.
 [[nodiscard]] WorldGeometry makeWorldGeometry(const Scene& scene, const ReflectorOptions& options = {});
 
 }  // namespace catoptric::scene
