@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+# Thin: scripts/ and the CMake presets do the work. Two commands do all set-up: `make demo` and `make test`.
+.DEFAULT_GOAL := help
+.PHONY: help demo test build setup setup-checks format check sanitize bench readme-pictures package clean
+
+help: ## say what can be made
+	@sed -n 's/^\([a-z-]*\):.*## /  make \1|/p' $(MAKEFILE_LIST) | while IFS='|' read -r name what; do \
+	  printf '%-24s %s\n' "$$name" "$$what"; done
+
+setup:
+	@scripts/install_packages.sh
+
+setup-checks:
+	@scripts/install_packages.sh --with-checks
+
+demo: setup ## set up, build, render the built-in scenes with every method and compare them with ray-traced truth
+	@scripts/build.sh release catoptric_app
+	@scripts/demo.sh
+
+test: setup ## set up, build and run the whole test suite
+	@scripts/build.sh release
+	@scripts/test.sh
+
+build: setup ## set up and build everything; the command is build/release/catoptric
+	@scripts/build.sh release
+
+format: setup-checks ## format all C++ files
+	@scripts/check_format.sh --fix
+
+check: setup-checks ## format, sources, shaders, clang-tidy (TIDY_SECONDS=N bounds the last)
+	@scripts/check.sh
+
+sanitize: setup ## build the tests with the address and undefined-behaviour sanitizers and run them
+	@scripts/sanitize.sh
+
+bench: setup ## run the benchmarks of the hot paths
+	@scripts/build.sh release
+	@scripts/bench.sh
+
+readme-pictures: setup ## render the pictures of README.md into docs/images
+	@scripts/build.sh release catoptric_app
+	@scripts/readme_pictures.sh
+
+package: setup ## make the Debian packages in build/release
+	@scripts/build.sh release
+	@cd build/release && cpack -G DEB
+
+clean: ## remove everything that was built or rendered
+	rm -rf build out
