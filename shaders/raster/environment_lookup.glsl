@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads the environment map. Two integer levels are blended here, because drivers differ in how they round a level.
+
+uniform sampler2D u_environment;           // latitude-longitude radiance with mip levels
+uniform sampler2DArray u_prefiltered;      // blurred by roughness, one layer each
+uniform vec3 u_irradiance[9];              // spherical harmonics of irradiance / pi
+uniform float u_environmentMaxLod;
+uniform float u_prefilteredLast;           // index of the last layer
+
+/// Radiance in a unit direction that changes by dx, dy per pixel.
+vec3 lookUpEnvironment(vec3 direction, vec3 dx, vec3 dy) {
+  vec2 uv = latLongFromDirection(direction);
+  float lod = min(environmentLod(dx, dy, float(textureSize(u_environment, 0).x)), u_environmentMaxLod);
+  float lower = floor(lod);
+  vec3 fine = textureLod(u_environment, uv, lower).rgb;
+  if (lod == lower) return fine;
+  return mix(fine, textureLod(u_environment, uv, lower + 1.0f).rgb, lod - lower);
+}
+
+vec3 lookUpPrefiltered(vec3 direction, float roughness) {
+  vec2 uv = latLongFromDirection(direction);
+  float layer = clamp(roughness, 0.0f, 1.0f) * u_prefilteredLast;
+  float lower = floor(layer);
+  vec3 fine = textureLod(u_prefiltered, vec3(uv, lower), 0.0f).rgb;
+  vec3 coarse = textureLod(u_prefiltered, vec3(uv, min(lower + 1.0f, u_prefilteredLast)), 0.0f).rgb;
+  return mix(fine, coarse, layer - lower);
+}
+
+vec3 lookUpIrradiance(vec3 normal) {
+  return evaluateIrradiance(u_irradiance[0], u_irradiance[1], u_irradiance[2], u_irradiance[3], u_irradiance[4],
+                            u_irradiance[5], u_irradiance[6], u_irradiance[7], u_irradiance[8], normal);
+}

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "catoptric/gl/context.h"
+
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <fmt/format.h>
+#include <glad/gl.h>
+
+#include <array>
+#include <cstring>
+
+#include "catoptric/core/error.h"
+
+namespace catoptric::gl {
+namespace {
+
+bool hasExtension(const char* list, const char* name) {
+  const std::string padded = fmt::format(" {} ", list ? list : "");
+  return padded.find(fmt::format(" {} ", name)) != std::string::npos;
+}
+
+/// The EGL displays that need no window system, best first.
+EGLDisplay openDisplay(int attempt) {
+  const auto getPlatformDisplay =
+      reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
+  const char* clientExtensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+  if (attempt == 0) {
+    if (!getPlatformDisplay || !hasExtension(clientExtensions, "EGL_MESA_platform_surfaceless"))
+      return EGL_NO_DISPLAY;
+    return getPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+  }
+  if (attempt == 1) {
+    const auto queryDevices =
+        reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(eglGetProcAddress("eglQueryDevicesEXT"));
+    EGLDeviceEXT device = nullptr;
+    EGLint count = 0;
+    if (!getPlatformDisplay || !queryDevices || !queryDevices(1, &device, &count) || count < 1)
+      return EGL_NO_DISPLAY;
+    return getPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, device, nullptr);
+  }
+  return eglGetDisplay(EGL_DEFAULT_DISPLAY);
+}
+
+}  // namespace
+
+struct Context::Impl {
+  EGLDisplay display = EGL_NO_DISPLAY;
+  EGLContext context = EGL_NO_CONTEXT;
+  std::string description;
+  std::string pendingMessage;
+  bool software = false;
+
+  static void GLAD_API_PTR onMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, const GLchar* text,
+                                     const void* user) {
+    if (type == GL_DEBUG_TYPE_PERFORMANCE) return;
+    if (type != GL_DEBUG_TYPE_ERROR && severity != GL_DEBUG_SEVERITY_HIGH && severity != GL_DEBUG_SEVERITY_MEDIUM)
+      return;
+    auto* self = static_cast<Impl*>(const_cast<void*>(user));
+    if (self->pendingMessage.empty()) self->pendingMessage = text;
+  }
+
+  bool open(int attempt, bool debug) {
+    display = openDisplay(attempt);
+    if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return false;
+    if (!eglBindAPI(EGL_OPENGL_API)) return false;
+    const std::array<EGLint, 5> configAttributes{EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+    EGLConfig config = nullptr;
+    EGLint configCount = 0;
+    if (!eglChooseConfig(display, configAttributes.data(), &config, 1, &configCount) || configCount < 1)
+      config = nullptr;  // EGL_KHR_no_config_context
+    const std::array<EGLint, 9> attributes{EGL_CONTEXT_MAJOR_VERSION,
+                                           3,
+                                           EGL_CONTEXT_MINOR_VERSION,
+                                           3,
+                                           EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                           EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                           EGL_CONTEXT_OPENGL_DEBUG,
+                                           debug ? EGL_TRUE : EGL_FALSE,
+                                           EGL_NONE};
+    context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
+    if (context == EGL_NO_CONTEXT) return false;
+    if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) return false;
+    return gladLoadGL(reinterpret_cast<GLADloadfunc>(eglGetProcAddress)) != 0;
+  }
+
+  void close() {
+    if (display == EGL_NO_DISPLAY) return;
+    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
+    context = EGL_NO_CONTEXT;
+    display = EGL_NO_DISPLAY;  // not terminated: another Context of this process may use it
+  }
+};
+
+Context::Context(const ContextOptions& options) : impl_(std::make_unique<Impl>()) {
+  bool isOpen = false;
+  for (int attempt = 0; attempt < 3 && !isOpen; ++attempt) {
+    isOpen = impl_->open(attempt, options.debug);
+    if (!isOpen) impl_->close();
+  }
+  if (!isOpen)
+    throw core::Error("gl.unavailable", "no OpenGL 3.3 core context could be made through EGL", {},
+                      "install a driver (Debian: libegl1 and libgl1-mesa-dri) or use --method raytrace");
+  const auto text = [](GLenum name) {
+    const auto* value = reinterpret_cast<const char*>(glGetString(name));
+    return std::string(value ? value : "?");
+  };
+  impl_->description = fmt::format("{}, OpenGL {}", text(GL_RENDERER), text(GL_VERSION));
+  impl_->software = text(GL_RENDERER).find("llvmpipe") != std::string::npos ||
+                    text(GL_RENDERER).find("softpipe") != std::string::npos;
+  if (options.debug && GLAD_GL_KHR_debug) {
+    glEnable(GL_DEBUG_OUTPUT);
+    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+    glDebugMessageCallback(&Impl::onMessage, impl_.get());
+  }
+  glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+}
+
+Context::~Context() {
+  impl_->close();
+}
+
+void Context::makeCurrent() {
+  if (!eglMakeCurrent(impl_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, impl_->context))
+    throw core::Error("gl.lost", "the OpenGL context can no longer be made current");
+}
+
+void Context::check(const char* where) {
+  const GLenum error = glGetError();
+  if (error == GL_NO_ERROR && impl_->pendingMessage.empty()) return;
+  std::string message = impl_->pendingMessage;
+  impl_->pendingMessage.clear();
+  if (error == GL_OUT_OF_MEMORY)
+    throw core::Error("gl.out_of_memory", fmt::format("OpenGL ran out of memory in {}", where), {},
+                      "use a smaller --size or fewer --bounces");
+  throw core::Error("gl.error", fmt::format("OpenGL error 0x{:04x} in {} {}", error, where, message));
+}
+
+void Context::finish() {
+  glFinish();
+}
+
+const std::string& Context::description() const {
+  return impl_->description;
+}
+
+bool Context::isSoftware() const {
+  return impl_->software;
+}
+
+}  // namespace catoptric::gl

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// A headless OpenGL 3.3 core context through EGL: no display server and no GPU needed (Mesa's llvmpipe serves).
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace catoptric::gl {
+
+struct ContextOptions {
+  /// Debug context: any GL error or message of medium or high severity is remembered and thrown by check().
+  bool debug = false;
+};
+
+/// Makes the context current on the calling thread; all other classes of this folder need a current context.
+class Context {
+ public:
+  /// Tries EGL surfaceless, then EGL devices, then the default display. Throws core::Error("gl.unavailable").
+  explicit Context(const ContextOptions& options = {});
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  void makeCurrent();
+  /// Throws core::Error("gl.error") if GL reported an error or the context was lost since the last call.
+  void check(const char* where);
+  /// Waits until the GPU has done everything; for timing.
+  void finish();
+
+  /// "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 core, Mesa 22.3.6"
+  [[nodiscard]] const std::string& description() const;
+  [[nodiscard]] bool isSoftware() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace catoptric::gl

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "catoptric/gl/framebuffer.h"
+
+#include <fmt/format.h>
+#include <glad/gl.h>
+
+#include "catoptric/core/error.h"
+#include "catoptric/gl/buffer.h"
+
+namespace catoptric::gl {
+
+Framebuffer::Framebuffer(std::span<const Texture* const> colors, const Texture* depth) {
+  glGenFramebuffers(1, &id_);
+  glBindFramebuffer(GL_FRAMEBUFFER, id_);
+  std::vector<GLenum> drawBuffers;
+  for (const Texture* color : colors) {
+    const GLenum attachment = GL_COLOR_ATTACHMENT0 + unsigned(drawBuffers.size());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, color->id(), 0);
+    drawBuffers.push_back(attachment);
+    width_ = color->width();
+    height_ = color->height();
+  }
+  if (depth) glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth->id(), 0);
+  glDrawBuffers(GLsizei(drawBuffers.size()), drawBuffers.data());
+  const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE) {
+    glDeleteFramebuffers(1, &id_);
+    throw core::Error("gl.framebuffer",
+                      fmt::format("a {}x{} render target is not supported (0x{:04x})", width_, height_, status), {},
+                      "use a smaller --size or --method raytrace");
+  }
+}
+
+Framebuffer::~Framebuffer() {
+  glDeleteFramebuffers(1, &id_);
+}
+
+void Framebuffer::bind() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, id_);
+  glViewport(0, 0, width_, height_);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void Framebuffer::clearColor(int attachment, const vec4& value) const {
+  glClearBufferfv(GL_COLOR, attachment, &value[0]);
+}
+
+void Framebuffer::clearColor(int attachment, const uvec4& value) const {
+  glClearBufferuiv(GL_COLOR, attachment, &value[0]);
+}
+
+void Framebuffer::clearDepth() const {
+  const float one = 1.0f;
+  glDepthMask(GL_TRUE);
+  glClearBufferfv(GL_DEPTH, 0, &one);
+}
+
+void Framebuffer::readPixels(int attachment, std::span<vec4> out) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
+  glReadBuffer(GL_COLOR_ATTACHMENT0 + unsigned(attachment));
+  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, out.data());
+}
+
+void Framebuffer::readPixels(int attachment, std::span<uvec2> out) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
+  glReadBuffer(GL_COLOR_ATTACHMENT0 + unsigned(attachment));
+  glReadPixels(0, 0, width_, height_, GL_RG_INTEGER, GL_UNSIGNED_INT, out.data());
+}
+
+void Framebuffer::copyToCubeFace(int attachment, const Texture& cube, int face) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
+  glReadBuffer(GL_COLOR_ATTACHMENT0 + unsigned(attachment));
+  glBindTexture(GL_TEXTURE_CUBE_MAP, cube.id());
+  glCopyTexSubImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + unsigned(face), 0, 0, 0, 0, 0, width_, height_);
+}
+
+void setDrawState(const DrawState& state) {
+  if (state.depthTest) {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+  } else {
+    glDisable(GL_DEPTH_TEST);
+  }
+  glDepthMask(state.depthWrite ? GL_TRUE : GL_FALSE);
+  if (state.cull == Cull::None) {
+    glDisable(GL_CULL_FACE);
+  } else {
+    glEnable(GL_CULL_FACE);
+    glCullFace(state.cull == Cull::Back ? GL_BACK : GL_FRONT);
+  }
+  if (state.blendPremultiplied) {
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  } else {
+    glDisable(GL_BLEND);
+  }
+}
+
+void setScissor(const Scissor& scissor) {
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(scissor.x, scissor.y, scissor.width, scissor.height);
+}
+
+void drawTriangles(std::uint32_t firstIndex, std::uint32_t indexCount) {
+  glDrawElements(GL_TRIANGLES, GLsizei(indexCount), GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(std::uintptr_t(firstIndex) * sizeof(std::uint32_t)));
+}
+
+void drawScreen() {
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+}  // namespace catoptric::gl

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Render targets and draw calls.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "catoptric/core/math.h"
+#include "catoptric/gl/texture.h"
+
+namespace catoptric::gl {
+
+/// Attaches textures it does not own.
+class Framebuffer {
+ public:
+  /// All of one size. `depth` may be null. Throws core::Error("gl.framebuffer") if incomplete.
+  Framebuffer(std::span<const Texture* const> colors, const Texture* depth);
+  ~Framebuffer();
+  Framebuffer(const Framebuffer&) = delete;
+  Framebuffer& operator=(const Framebuffer&) = delete;
+
+  void bind() const;  ///< also sets the viewport to the whole target and turns the scissor off
+  void clearColor(int attachment, const vec4& value) const;
+  void clearColor(int attachment, const uvec4& value) const;
+  void clearDepth() const;
+
+  /// Reads an attachment, bottom row first, into 4 floats or 2 unsigned integers per pixel.
+  void readPixels(int attachment, std::span<vec4> out) const;
+  void readPixels(int attachment, std::span<uvec2> out) const;
+
+  /// Copies a colour attachment into level 0 of a face of a cube texture of the same size and format.
+  void copyToCubeFace(int attachment, const Texture& cube, int face) const;
+
+ private:
+  unsigned id_ = 0;
+  int width_ = 0, height_ = 0;
+};
+
+enum class Cull : std::uint8_t { None, Back, Front };
+
+struct DrawState {
+  bool depthTest = true;
+  bool depthWrite = true;
+  Cull cull = Cull::None;
+  bool blendPremultiplied = false;  ///< source + destination * (1 - source alpha)
+};
+
+/// Rectangle in pixels, origin at the lower left corner.
+struct Scissor {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+void setDrawState(const DrawState& state);
+void setScissor(const Scissor& scissor);
+/// The bound vertex array's index buffer, 32-bit indices, triangles.
+void drawTriangles(std::uint32_t firstIndex, std::uint32_t indexCount);
+/// One triangle that covers the target; shaders/lib/screen.vert makes its corners from gl_VertexID.
+void drawScreen();
+
+}  // namespace catoptric::gl
