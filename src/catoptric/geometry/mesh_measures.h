@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Size and convexity of a triangle mesh.
+#pragma once
+
+#include <span>
+
+#include "catoptric/core/math.h"
+#include "catoptric/geometry/shape_recognition.h"
+
+namespace catoptric::geometry {
+
+struct BoundingSphere {
+  dvec3 centre{0};
+  double radius = 0;
+};
+
+/// Holds every point; a few per cent larger than the smallest one at most (Ritter 1990, then steps of Badoiu
+/// & Clarkson 2003 towards the farthest point). Deterministic.
+[[nodiscard]] BoundingSphere computeBoundingSphere(std::span<const vec3> points);
+
+[[nodiscard]] double computeArea(const MeshView& mesh);
+
+/// Is the surface convex seen from its front, to within tessellation, so that no ray that leaves its front
+/// side can meet it again? Locally: across every edge the neighbour's far vertex is not in front of the
+/// triangle's plane. Globally: no vertex is in front of the planes of a spread sample of triangles (locally
+/// convex but wound up, or too gently concave per edge). "In front" means by an angle of more than 1e-3
+/// radians. Edges with more than two triangles or with two triangles of opposite winding make the surface not
+/// convex; borders are allowed.
+[[nodiscard]] bool isConvexMesh(const MeshView& mesh);
+
+}  // namespace catoptric::geometry
