@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a curved reflector may reflect, cut finely enough that straight virtual edges stand for curved images.
+//
+// An edge is split at its middle while it is longer than k (d + c): d the distance of its middle to the
+// reflector, c the reflector's focal length. The decision reads the two end positions only, so neighbours
+// decide alike, even where vertices are duplicated: no cracks. It does not depend on the eye: nothing pops
+// while the camera moves. New attributes are means of the ends and are *not* renormalised: the fragment
+// shader interpolates and normalises exactly as it does on the uncut triangle, so shading does not change.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "catoptric/core/math.h"
+#include "catoptric/scene/world_geometry.h"
+
+namespace catoptric::virtual_object {
+
+/// Pieces of one part of the world geometry, in the order of the world's parts (so blending keeps its order).
+struct TessellatedPart {
+  std::uint32_t part = 0;  ///< index into WorldGeometry::parts
+  std::uint32_t firstIndex = 0, indexCount = 0;
+  std::uint32_t firstVertex = 0, vertexCount = 0;
+};
+
+/// Same element types as WorldGeometry.
+struct TessellatedObjects {
+  std::vector<vec3> positions, normals;
+  std::vector<vec4> tangents;
+  std::vector<vec2> uv0, uv1;
+  std::vector<vec4> colors;
+  std::vector<std::uint32_t> indices;
+  std::vector<std::uint32_t> sourceTriangles;  ///< world triangle that each triangle was cut from
+  std::vector<TessellatedPart> parts;          ///< every part but the reflector's own; never empty ones
+  double edgeFactor = 0;  ///< the k that was used (larger than asked for if the budget was hit)
+};
+
+struct TessellationOptions {
+  double maxErrorPx = 0.5;            ///< aim: how far the drawn image of an edge may be from the true one
+  double reflectorDiameterPx = 700;   ///< at which size of the reflector on the screen (bounding sphere)
+  std::size_t maxTriangles = 600000;  ///< budget; when hit, k is raised and one warning says so
+};
+
+/// `reflector` is an index into geometry.reflectors.
+[[nodiscard]] TessellatedObjects tessellateForReflector(const scene::WorldGeometry& geometry,
+                                                        std::uint32_t reflector,
+                                                        const TessellationOptions& options = {});
+
+}  // namespace catoptric::virtual_object

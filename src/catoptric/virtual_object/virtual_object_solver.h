@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Virtual vertices: where to draw a scene point Q so that an ordinary rasterizer shows its reflection in a
+// curved mirror (Ofek & Rappoport 1998, sections 3 and 4; Blythe 1999; corrections in this folder's README).
+//
+// Everything here depends on the eye: three maps of triangle ids (near, far, hidden) and two solvers that use
+// them.
+//   Explosion: the method as published. Mirrors Q in the planes that the two maps name and blends the
+//   results. Refined:   takes the blend of the two reflection points as the start of a Newton search on the
+//   mirror law, which
+//              walks across triangle edges; then Q' lies on the ray eye -> J at distance |EJ| + |JQ|, so that
+//              depth order is the order of path length.
+// World space, double inside, float at the borders.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "catoptric/core/image.h"
+#include "catoptric/core/math.h"
+#include "catoptric/virtual_object/explosion_map.h"
+#include "catoptric/virtual_object/reflector_mesh.h"
+
+namespace catoptric::virtual_object {
+
+enum class Solver : std::uint8_t { Explosion, Refined };
+
+/// None: nothing sensible exists, drop the vertex's triangles. DoublyVirtual: not reflected, but placed
+/// outside the mirror's image (or in front of the mirror's surface, where the depth test against the mirror
+/// removes it), so that it closes triangles that are partly reflected.
+enum class VertexKind : std::uint8_t { None, Reflected, DoublyVirtual };
+
+struct SolverOptions {
+  int mapResolution = 256;        ///< pixels across the near and far map
+  int hiddenMapResolution = 256;  ///< pixels across the hidden map
+  int newtonSteps = 16;           ///< most steps of Refined; two or three are usual
+  double tolerance = 1e-6;        ///< of Refined: sine of the angle between normal and half vector at J
+};
+
+/// Where the eye sees a scene point.
+struct ReflectionPoint {
+  dvec3 position{0};           ///< J
+  dvec3 normal{0};             ///< unit
+  dvec3 virtualPosition{0};    ///< Q'
+  std::uint32_t triangle = 0;  ///< index into ReflectorMesh::triangles()
+  double u = 0, v = 0;         ///< J = position0 + u edge1 + v edge2 of it
+  double residual = 0;         ///< sine of the angle between normal and half vector
+  int steps = 0;               ///< evaluations of the mirror law
+  VertexKind kind = VertexKind::None;
+};
+
+class VirtualObjectSolver {
+ public:
+  /// `mesh` must outlive the solver. `farRadius` bounds the scene around mesh.centre() (points outside are
+  /// served, less well seeded).
+  VirtualObjectSolver(const ReflectorMesh& mesh, const dvec3& eye, double farRadius,
+                      const SolverOptions& options = {});
+
+  /// Rebuilds the maps for a new eye; allocates nothing.
+  void setEye(const dvec3& eye);
+
+  /// All spans have equal length, except that `reflectionPoints` (J, wanted by selectVirtualTriangles()) may
+  /// be empty. Parallel; the result does not depend on the number of threads. Positions of None are left as
+  /// Q.
+  void compute(Solver solver, std::span<const vec3> scenePoints, std::span<vec3> virtualPositions,
+               std::span<VertexKind> kinds, std::span<vec3> reflectionPoints = {}) const;
+
+  /// One point, for tests and picking; nothing when the kind would be None.
+  [[nodiscard]] std::optional<ReflectionPoint> findReflectionPoint(Solver solver,
+                                                                   const dvec3& scenePoint) const;
+
+  /// False when the eye cannot see any front of the mirror: everything is None, skip the reflector.
+  [[nodiscard]] bool canReflect() const { return canReflect_; }
+
+  [[nodiscard]] const ReflectorMesh& mesh() const { return *mesh_; }
+  [[nodiscard]] const dvec3& eye() const { return eye_; }
+  [[nodiscard]] const ExplosionMap& nearMap() const { return nearMap_; }
+  [[nodiscard]] const ExplosionMap& farMap() const { return farMap_; }
+  [[nodiscard]] const HiddenMap& hiddenMap() const { return hiddenMap_; }
+
+ private:
+  [[nodiscard]] ReflectionPoint solveExplosion(const dvec3& scenePoint) const;
+  [[nodiscard]] ReflectionPoint solveRefined(const dvec3& scenePoint) const;
+  [[nodiscard]] ReflectionPoint solveHidden(const dvec3& scenePoint) const;
+
+  const ReflectorMesh* mesh_;
+  dvec3 eye_{0};
+  double farRadius_ = 0;
+  SolverOptions options_;
+  bool canReflect_ = false;
+  ExplosionMap nearMap_, farMap_;
+  HiddenMap hiddenMap_;
+};
+
+}  // namespace catoptric::virtual_object

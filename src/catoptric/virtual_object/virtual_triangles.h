@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which virtual triangles are worth drawing.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "catoptric/virtual_object/tessellation.h"
+#include "catoptric/virtual_object/virtual_object_solver.h"
+
+namespace catoptric::virtual_object {
+
+/// Indices into the TessellatedObjects' vertices; `parts` runs parallel to TessellatedObjects::parts
+/// (firstVertex and vertexCount copied). Reused from frame to frame: nothing is allocated once the capacity
+/// suffices.
+struct VirtualTriangles {
+  std::vector<std::uint32_t> indices;
+  std::vector<TessellatedPart> parts;
+};
+
+/// Drops triangles with a None vertex, those without any Reflected vertex, and those that are turned inside
+/// out (their real face and their image do not have the mirrored orientation, which happens to triangles that
+/// reach around the reflector's shadow; drawn, they would sweep across the mirror's image). The winding is
+/// that of the real triangle, so seen from the eye it is reversed. `reflectionPoints` as written by
+/// VirtualObjectSolver::compute().
+void selectVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
+                            std::span<const vec3> virtualPositions, std::span<const VertexKind> kinds,
+                            std::span<const vec3> reflectionPoints, VirtualTriangles& out);
+
+}  // namespace catoptric::virtual_object
