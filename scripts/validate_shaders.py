@@ -3,8 +3,8 @@
 """validate_shaders.py: every file in shaders/ compiles as `330 core` and as `300 es` (glslangValidator).
 
 A .vert or .frag file is put together as gl/Program does it: the version, the definitions of the GLSL side, then the
-file with each `#include "path"` replaced by shaders/path. A .glsl file of lib/ is a part: it is compiled with an
-empty main. A variant is one feature switch `#if FEATURE` / `#ifdef FEATURE` a file, so each file is compiled with the
+file with each `#include "path"` replaced by shaders/path. A .glsl file of lib/ is compiled alone too, with an empty
+main; any other .glsl file is a part of the shaders that include it, and there must be one. A variant is one feature switch `#if FEATURE` / `#ifdef FEATURE` a file, so each file is compiled with the
 switch off and on. Prints one line a failure, then the count; exit 1 on any failure.
 """
 import os
@@ -16,7 +16,7 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 
 FOLDER = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "shaders")
-INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"\s*$')
+INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"\s*$', re.M)
 SWITCH = re.compile(r"^\s*#\s*(?:if|ifdef|ifndef)\s+(?:defined\s*\(?\s*)?([A-Z][A-Z0-9_]*)\b", re.M)
 SAMPLERS = [p + s for p in ("", "i", "u") for s in ("sampler2D", "sampler3D", "samplerCube", "sampler2DArray")]
 SAMPLERS += ["sampler2DShadow", "samplerCubeShadow", "sampler2DArrayShadow"]
@@ -76,21 +76,27 @@ def compile_one(job):
 def main():
     if shutil.which("glslangValidator") is None:
         sys.exit("validate_shaders: glslangValidator is missing (apt-get install glslang-tools)")
-    jobs = []
+    jobs, parts, used = [], set(), set()
     for root, _, names in os.walk(FOLDER):
         for name in sorted(names):
             if not name.endswith((".vert", ".frag", ".glsl")):
                 continue
             path = os.path.relpath(os.path.join(root, name), FOLDER)
             with open(os.path.join(FOLDER, path), encoding="utf-8") as file:
-                switches = sorted(set(SWITCH.findall(file.read())) - {"GL_ES", "CATOPTRIC_FN"})
+                text = file.read()
+            switches = sorted(set(SWITCH.findall(text)) - {"GL_ES", "CATOPTRIC_FN"})
+            used.update(INCLUDE.findall(text))
+            if name.endswith(".glsl") and not path.startswith("lib/"):
+                parts.add(path)
+                continue
             for dialect in DIALECTS:
                 for chosen in [[]] + [[switch] for switch in switches]:
                     jobs.append((path, dialect, chosen))
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         errors = [error for result in pool.map(compile_one, jobs) for error in result]
+    errors += [f"shaders/{path}: no shader includes it" for path in sorted(parts - used)]
     print("\n".join(dict.fromkeys(errors)), file=sys.stderr, end="\n" if errors else "")
-    print(f"shaders: {len({path for path, _, _ in jobs})} files, {len(jobs)} compilations, {len(errors)} errors")
+    print(f"shaders: {len({path for path, _, _ in jobs} | parts)} files, {len(jobs)} compilations, {len(errors)} errors")
     sys.exit(1 if errors or not jobs else 0)
 
 
