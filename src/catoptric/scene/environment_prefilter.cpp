@@ -7,7 +7,7 @@
 // 1. Directions are drawn from the distribution of normals (Hammersley points): h, then l = 2 (n.h) h - n.
 // 2. Each sample stands for the solid angle 1 / (count * density); it reads the mip level whose texels are
 // about that
-//    large, so 256 of them give a smooth result even around the sun. Never a level finer than the result.
+//    large, so a few hundred give a smooth result even around the sun. Never a level finer than the result.
 // 3. The map and the lobe look the same from every column of a row: samples are turned into map coordinates
 // once per
 //    row, and each column adds its own u. This saves all arc functions and makes the cost that of the
@@ -17,10 +17,10 @@
 //
 // Departures: viewing direction = normal (Karis), so highlights at grazing angles do not stretch.
 // Failures: nine coefficients ring around a small strong light by some per cent and may go below zero
-// opposite to it, where evaluateIrradiance() stops at 0. Cost: 60 ms on two cores, whatever the size of the
-// map. Source: Karis, "Real Shading in Unreal Engine 4", SIGGRAPH 2013 course; Krivanek & Colbert, "Real-time
-// Shading with Filtered Importance Sampling", EGSR 2008; Ramamoorthi & Hanrahan, "An Efficient Representation
-// for Irradiance Environment Maps", SIGGRAPH 2001.
+// opposite to it, where evaluateIrradiance() stops at 0. Cost: about 70 ms on two cores, whatever the size of
+// the map. Source: Karis, "Real Shading in Unreal Engine 4", SIGGRAPH 2013 course; Krivanek & Colbert,
+// "Real-time Shading with Filtered Importance Sampling", EGSR 2008; Ramamoorthi & Hanrahan, "An Efficient
+// Representation for Irradiance Environment Maps", SIGGRAPH 2001.
 #include "catoptric/scene/environment_prefilter.h"
 
 #include <algorithm>
@@ -33,7 +33,6 @@ namespace catoptric::scene {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kSampleCount = 256;
 
 /// A direction of the lobe around n = +z of the tangent frame.
 struct LobeSample {
@@ -65,14 +64,16 @@ int findMip(std::span<const core::ImageRgbF> mips, int width) {
 }
 
 /// Steps 1 and 2.
-std::vector<LobeSample> makeLobe(double roughness, std::span<const core::ImageRgbF> mips) {
+std::vector<LobeSample> makeLobe(double roughness, std::uint32_t count,
+                                 std::span<const core::ImageRgbF> mips) {
   constexpr int kCoarsestWidth = 32;
+  constexpr double kMipBias = 1.0;  // samples overlap, so that their pattern does not show (Colbert)
   const int finest = findMip(mips, kPrefilteredWidth), coarsest = findMip(mips, kCoarsestWidth);
   const double alpha2 = std::pow(roughness, 4.0);
   const double texelSolidAngle = (2.0 * kPi / mips[0].width()) * (kPi / mips[0].height());
   std::vector<LobeSample> lobe;
-  for (std::uint32_t i = 0; i < kSampleCount; ++i) {
-    const double a = (i + 0.5) / kSampleCount, phi = 2.0 * kPi * radicalInverse(i);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double a = (i + 0.5) / count, phi = 2.0 * kPi * radicalInverse(i);
     const double cos2 = (1.0 - a) / (1.0 + (alpha2 - 1.0) * a), cosH = std::sqrt(cos2);
     const double sinH = std::sqrt(1.0 - cos2);
     const dvec3 h(sinH * std::cos(phi), sinH * std::sin(phi), cosH);
@@ -80,7 +81,7 @@ std::vector<LobeSample> makeLobe(double roughness, std::span<const core::ImageRg
     if (l.z <= 0.0) continue;
     const double d = cos2 * (alpha2 - 1.0) + 1.0;
     const double density = alpha2 / (kPi * d * d) / 4.0;  // D n.h / (4 v.h), v = n
-    const double level = 0.5 * std::log2(1.0 / (kSampleCount * density * texelSolidAngle)) + 0.5;
+    const double level = 0.5 * std::log2(1.0 / (count * density * texelSolidAngle)) + kMipBias;
     lobe.push_back({l, l.z, std::clamp(int(std::lround(level)), finest, coarsest)});
   }
   double sum = 0;
@@ -104,8 +105,7 @@ std::vector<RowSample> turnToRow(std::span<const LobeSample> lobe, double v,
   return row;
 }
 
-core::ImageRgbF reduceMap(std::span<const core::ImageRgbF> mips) {
-  const core::ImageRgbF& source = mips[std::size_t(findMip(mips, kPrefilteredWidth))];
+core::ImageRgbF resizeMap(const core::ImageRgbF& source) {
   core::ImageRgbF result(kPrefilteredWidth, kPrefilteredHeight);
   for (int y = 0; y < result.height(); ++y)
     for (int x = 0; x < result.width(); ++x)
@@ -115,13 +115,17 @@ core::ImageRgbF reduceMap(std::span<const core::ImageRgbF> mips) {
 }
 
 core::ImageRgbF blurMap(double roughness, std::span<const core::ImageRgbF> mips) {
-  const std::vector<LobeSample> lobe = makeLobe(roughness, mips);
-  core::ImageRgbF result(kPrefilteredWidth, kPrefilteredHeight);
-  core::parallelFor(kPrefilteredHeight, 4, [&](std::size_t begin, std::size_t end) {
+  // Step 4.
+  const bool isWide = roughness > 0.5;
+  const int width = isWide ? kPrefilteredWidth / 2 : kPrefilteredWidth;
+  const int height = isWide ? kPrefilteredHeight / 2 : kPrefilteredHeight;
+  const std::vector<LobeSample> lobe = makeLobe(roughness, isWide ? 1024 : 256, mips);
+  core::ImageRgbF result(width, height);
+  core::parallelFor(std::size_t(height), 2, [&](std::size_t begin, std::size_t end) {
     for (std::size_t y = begin; y < end; ++y) {
-      const std::vector<RowSample> samples = turnToRow(lobe, (double(y) + 0.5) / kPrefilteredHeight, mips);
-      for (int x = 0; x < kPrefilteredWidth; ++x) {
-        const float u = (float(x) + 0.5f) / kPrefilteredWidth;
+      const std::vector<RowSample> samples = turnToRow(lobe, (double(y) + 0.5) / height, mips);
+      for (int x = 0; x < width; ++x) {
+        const float u = (float(x) + 0.5f) / float(width);
         vec3 sum(0);
         for (const RowSample& sample : samples)
           sum += sampleLatLong(*sample.map, u + sample.u, sample.v) * sample.weight;
@@ -129,7 +133,7 @@ core::ImageRgbF blurMap(double roughness, std::span<const core::ImageRgbF> mips)
       }
     }
   });
-  return result;
+  return isWide ? resizeMap(result) : result;
 }
 
 }  // namespace
@@ -153,7 +157,7 @@ vec3 sampleLatLong(const core::ImageRgbF& map, float u, float v) {
 
 std::vector<core::ImageRgbF> prefilterEnvironment(std::span<const core::ImageRgbF> mips, int levels) {
   std::vector<core::ImageRgbF> result;
-  result.push_back(reduceMap(mips));
+  result.push_back(resizeMap(mips[std::size_t(findMip(mips, kPrefilteredWidth))]));
   for (int i = 1; i < levels; ++i) result.push_back(blurMap(double(i) / (levels - 1), mips));
   return result;
 }

@@ -2,10 +2,10 @@
 // What does the sky look like in each direction?
 //
 // Input: a unit direction d, y up. Output: linear radiance, for pictures at exposure 1: a white matte floor
-// under it reflects about 0.8.
+// under it reflects about 0.8 (a little more in blue).
 //
 // 1. Air: from a bright horizon to a blue zenith, exponential in height.
-// 2. Sun: a soft disc of 2 degrees and two exponential glows around it. Its peak is moderate (40), because a
+// 2. Sun: a soft disc of 2 degrees and two exponential glows around it. Its peak is moderate (55), because a
 //    rasterizer without bloom shows a real sun (10^9) as nothing but aliasing.
 // 3. Clouds: fractal gradient noise on a flat ceiling, which perspective makes smaller towards the horizon.
 // It is a
@@ -30,12 +30,12 @@
 namespace catoptric::scene {
 namespace {
 
-constexpr vec3 kHorizon{0.80f, 0.90f, 1.00f};
-constexpr vec3 kZenith{0.17f, 0.36f, 0.78f};
+constexpr vec3 kHorizon{0.98f, 1.01f, 1.05f};
+constexpr vec3 kZenith{0.21f, 0.40f, 0.76f};
 constexpr vec3 kSunColour{1.00f, 0.90f, 0.74f};
-constexpr float kSunPeak = 40.0f;
-constexpr vec3 kCloudLit{1.45f, 1.42f, 1.36f};
-constexpr vec3 kCloudShade{0.72f, 0.78f, 0.88f};
+constexpr float kSunPeak = 55.0f;
+constexpr vec3 kCloudLit{1.95f, 1.86f, 1.71f};
+constexpr vec3 kCloudShade{0.80f, 0.82f, 0.86f};
 constexpr vec3 kGroundNear{0.46f, 0.43f, 0.39f};
 constexpr vec3 kGroundNadir{0.20f, 0.19f, 0.18f};
 
@@ -95,14 +95,14 @@ float fractalNoise(float x, float y, int octaves, float footprint) {
 
 /// Step 1.
 vec3 airRadiance(float height) {
-  return glm::mix(kZenith, kHorizon, std::exp(-3.2f * height));
+  return glm::mix(kZenith, kHorizon, std::exp(-2.8f * height));
 }
 
 /// Step 2.
 vec3 sunRadiance(float cosToSun) {
   const float away = 1.0f - cosToSun;
-  const float disc = kSunPeak * (1.0f - smoothStep(0.00022f, 0.00075f, away));  // 1.2 to 2.2 degrees
-  return kSunColour * (disc + 1.6f * std::exp(-300.0f * away) + 0.35f * std::exp(-14.0f * away));
+  const float disc = kSunPeak * (1.0f - smoothStep(0.0003f, 0.0010f, away));  // 1.4 to 2.6 degrees
+  return kSunColour * (disc + 3.5f * std::exp(-220.0f * away) + 0.55f * std::exp(-7.0f * away));
 }
 
 /// Step 3: lays the clouds over `behind`. `radiansPerTexel` sets the smallest detail.
@@ -116,7 +116,7 @@ vec3 coverByClouds(const vec3& behind, const vec3& d, const vec3& toSun, float c
   const float x = kScale * d.x / bent, y = kScale * d.z / bent;
   const float footprint = radiansPerTexel * kScale / (bent * bent);
   const float here = fractalNoise(x, y, 6, footprint);
-  const float cover = smoothStep(0.02f, 0.62f, here) * fade;
+  const float cover = smoothStep(-0.06f, 0.56f, here) * fade;
   if (cover <= 0.0f) return behind;
   const float towardsSun = fractalNoise(x + 0.16f * toSun.x, y + 0.16f * toSun.z, 4, footprint);
   const float lit = std::clamp(0.62f + 1.1f * (here - towardsSun) - 0.45f * cover, 0.0f, 1.0f);
@@ -128,7 +128,7 @@ vec3 coverByClouds(const vec3& behind, const vec3& d, const vec3& toSun, float c
 /// Step 4, for y below 0.
 vec3 groundRadiance(float y) {
   const vec3 ground = glm::mix(kGroundNadir, kGroundNear, std::exp(2.2f * y));
-  return glm::mix(ground, kHorizon * 0.85f, std::exp(y / 0.025f));
+  return glm::mix(ground, kHorizon * 0.80f, std::exp(y / 0.025f));
 }
 
 vec3 skyRadiance(const vec3& d, const vec3& toSun, float radiansPerTexel) {
@@ -137,7 +137,7 @@ vec3 skyRadiance(const vec3& d, const vec3& toSun, float radiansPerTexel) {
   }
   const float cosToSun = glm::dot(d, toSun);
   const vec3 clear = airRadiance(d.y) + sunRadiance(cosToSun) * smoothStep(0.0f, 0.05f, d.y);
-  const vec3 horizonHaze = kHorizon * 0.85f;
+  const vec3 horizonHaze = kHorizon * 0.80f;
   return glm::mix(coverByClouds(clear, d, toSun, cosToSun, radiansPerTexel), horizonHaze,
                   std::exp(-d.y / 0.02f));
 }
