@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ray-traced truth with Embree: the judge of every other method, and what a CPU user would pick instead, so written
-// to be fast (tiles over all cores, rays of a tile traced as one stream). Shades with shaders/lib/*.glsl compiled as
-// C++, filters textures by ray differentials carried through the mirrors (Igehy 1999).
+// Ray-traced truth with Embree: the judge of every other method, and what a CPU user would pick instead, so
+// written to be fast (tiles over all cores, rays of a tile traced as one stream). Shades with
+// shaders/lib/*.glsl compiled as C++, filters textures by ray differentials carried through the mirrors
+// (Igehy 1999).
 //
-// Rules it shares with the rasterizer, so that their pictures can agree: the same world-space floats; back faces of
-// single-sided materials are not there; alpha-masked texels are not there; blended surfaces let the rest through; the
-// normal is interpolated from the vertices and normal-mapped; a mirror met after the last allowed bounce shows the
-// environment in its mirror direction; lights cast no shadows.
+// Rules it shares with the rasterizer, so that their pictures can agree: the same world-space floats; back
+// faces of single-sided materials are not there; alpha-masked texels are not there; blended surfaces let the
+// rest through; the normal is interpolated from the vertices and normal-mapped; a mirror met after the last
+// allowed bounce shows the environment in its mirror direction; lights cast no shadows.
 #pragma once
 
 #include <memory>
@@ -21,25 +22,26 @@
 namespace catoptric::reference {
 
 struct TraceOptions {
-  int bounces = 1;             ///< mirror bounces; 0 = mirrors show the environment only
-  int samples = 1;             ///< rays per pixel, on the same sub-pixel pattern as the rasterizer (samplePattern())
+  int bounces = 1;  ///< mirror bounces; 0 = mirrors show the environment only
+  int samples = 1;  ///< rays per pixel, on the same sub-pixel pattern as the rasterizer (samplePattern())
   bool withSeen = true;        ///< fill `seen` (always from the pixel centre)
   bool withFootprints = true;  ///< fill `footprints`
 };
 
 struct TraceResult {
-  core::ImageRgbaF radiance;           ///< linear, alpha 1
-  core::SeenImage seen;                ///< empty unless asked for
-  core::FootprintImage footprints;     ///< empty unless asked for
-  std::uint64_t rays = 0;              ///< rays traced, primary and mirrored
-  double seconds = 0;                  ///< wall time of the tracing alone
+  core::ImageRgbaF radiance;        ///< linear, alpha 1
+  core::SeenImage seen;             ///< empty unless asked for
+  core::FootprintImage footprints;  ///< empty unless asked for
+  std::uint64_t rays = 0;           ///< rays traced, primary and mirrored
+  double seconds = 0;               ///< wall time of the tracing alone
 };
 
 class RayTracer {
  public:
-  /// Builds the acceleration structure. All arguments must outlive the tracer. Triangles with a non-finite vertex
-  /// are left out (Debian's Embree aborts on them). Throws core::Error("embree.*").
-  RayTracer(const scene::Scene& scene, const scene::WorldGeometry& geometry, const scene::Environment& environment);
+  /// Builds the acceleration structure. All arguments must outlive the tracer. Triangles with a non-finite
+  /// vertex are left out (Debian's Embree aborts on them). Throws core::Error("embree.*").
+  RayTracer(const scene::Scene& scene, const scene::WorldGeometry& geometry,
+            const scene::Environment& environment);
   ~RayTracer();
   RayTracer(const RayTracer&) = delete;
   RayTracer& operator=(const RayTracer&) = delete;

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "catoptric/reference/ray_tracer.h"
+
+#include <immintrin.h>
+
+#include <atomic>
+#include <chrono>
+
+#include "catoptric/core/parallel.h"
+#include "catoptric/reference/embree_scene.h"
+#include "catoptric/reference/surface_shading.h"
+#include "catoptric/reference/tile_tracer.h"
+
+namespace catoptric::reference {
+namespace {
+
+/// Embree asks for denormals to be flushed while it traces; restored afterwards.
+class FlushDenormals {
+ public:
+  FlushDenormals() : before_(_mm_getcsr()) { _mm_setcsr(before_ | 0x8040u); }
+  ~FlushDenormals() { _mm_setcsr(before_); }
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+ private:
+  unsigned before_;
+};
+
+}  // namespace
+
+struct RayTracer::Impl {
+  Impl(const scene::Scene& scene, const scene::WorldGeometry& world, const scene::Environment& light)
+      : geometry(world), environment(light), shader(scene, world, light), embree(world, shader) {}
+
+  const scene::WorldGeometry& geometry;
+  const scene::Environment& environment;
+  SurfaceShader shader;
+  EmbreeScene embree;
+};
+
+RayTracer::RayTracer(const scene::Scene& scene, const scene::WorldGeometry& geometry,
+                     const scene::Environment& environment)
+    : impl_(std::make_unique<Impl>(scene, geometry, environment)) {}
+
+RayTracer::~RayTracer() = default;
+
+TraceResult RayTracer::trace(const scene::CameraFrame& camera, const TraceOptions& options) const {
+  const auto start = std::chrono::steady_clock::now();
+  TraceResult result;
+  result.radiance = core::ImageRgbaF(camera.widthPx, camera.heightPx, vec4(0, 0, 0, 1));
+  if (options.withSeen) result.seen = core::SeenImage(camera.widthPx, camera.heightPx);
+  if (options.withFootprints) result.footprints = core::FootprintImage(camera.widthPx, camera.heightPx);
+
+  const TracedScene scene{impl_->geometry, impl_->environment, impl_->shader, impl_->embree};
+  const int columns = (camera.widthPx + kTileEdgePx - 1) / kTileEdgePx;
+  const int rows = (camera.heightPx + kTileEdgePx - 1) / kTileEdgePx;
+  std::atomic<std::uint64_t> rays{0};
+  core::parallelFor(std::size_t(columns) * std::size_t(rows), 4, [&](std::size_t begin, std::size_t end) {
+    const FlushDenormals flush;
+    TileTracer tracer(scene, camera, options, result);
+    for (std::size_t tile = begin; tile < end; ++tile)
+      tracer.traceTile(int(tile % std::size_t(columns)) * kTileEdgePx,
+                       int(tile / std::size_t(columns)) * kTileEdgePx);
+    rays += tracer.rays();
+  });
+  result.rays = rays;
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+std::string RayTracer::describe() const {
+  return impl_->embree.describe();
+}
+
+}  // namespace catoptric::reference
