@@ -201,7 +201,7 @@ void writeFileAtomically(const std::filesystem::path& path, std::span<const std:
   if (exists && S_ISDIR(status.st_mode)) throwWriteError(path, EISDIR);
   if (exists && !S_ISREG(status.st_mode)) return writeToDevice(target, bytes);
   // A write-protected file is the user's "no", even where the folder would let us replace it.
-  if (exists && ::access(target.c_str(), W_OK) != 0) throwWriteError(path, errno);
+  if (exists && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) throwWriteError(path, errno);
   replaceFile(target, exists ? std::optional<mode_t>(status.st_mode & 0777) : std::nullopt, bytes);
 }
 
