@@ -16,31 +16,48 @@
 
 namespace catoptric::virtual_object {
 
-/// Ids in a map: triangle * 2 + (1 if the pixel belongs to an extension polygon of that triangle).
+/// Ids in an explosion map: triangle * 2, + kExtensionBit if the pixel belongs to an extension polygon of it.
 inline constexpr std::uint32_t kExtensionBit = 1;
 
-/// Orthonormal frame of a map; z points from the centre to the eye, so that the singular direction -z, the
-/// whole rim of the map's circle, lies in the hidden region.
+/// Orthonormal frame of a map. For explosion maps z points from the centre to the eye, so that the singular
+/// direction -z, the whole rim of the map's circle, lies in the hidden region.
 struct MapFrame {
   dvec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
 };
 
-[[nodiscard]] MapFrame makeMapFrame(const dvec3& towardsEye);
+[[nodiscard]] MapFrame makeMapFrame(const dvec3& zDirection);
 
-/// MapCoords with Blythe's factor: a direction (unit, world) to [-1, 1]^2, inside the unit circle. The 1998
-/// text misprints the factor.
+/// MapCoords with Blythe's factor: a unit direction (world) to the disc of radius 1. (The 1998 text misprints
+/// the factor.) Pixels are (coords + 1) / 2 * resolution.
 [[nodiscard]] inline dvec2 computeMapCoords(const MapFrame& frame, const dvec3& unitDirection) {
   const double z = glm::dot(frame.z, unitDirection);
   const double scale = 1.0 / std::sqrt(std::max(2.0 * (z + 1.0), 1e-12));
   return {glm::dot(frame.x, unitDirection) * scale, glm::dot(frame.y, unitDirection) * scale};
 }
 
+/// (u, v) in a reflector triangle as a linear function of map coordinates: the paper's barycentrics, negative
+/// ones included.
+struct UvFromCoords {
+  float u0, ux, uy, v0, vx, vy;
+};
+
 struct ExplosionMap {
   dvec3 centre{0};
   double radius = 0;  ///< of the sphere on which reflected rays are caught
   MapFrame frame;
-  core::Image<std::uint32_t> ids;  ///< core::kNoId outside the circle; the circle touches the image's edges
-  std::vector<dvec2> coords;       ///< map coordinates in [-1, 1]^2 of every welded vertex of the mesh
+  core::Image<std::uint32_t> ids;          ///< core::kNoId outside the circle; the circle touches the edges
+  std::vector<dvec2> coords;               ///< map coordinates of every welded vertex of the mesh
+  std::vector<UvFromCoords> uvFromCoords;  ///< of every triangle
+  dvec2 extensionCentre{0, 0};             ///< extension polygons lead away from here
+  std::size_t patchedPixels = 0;           ///< pixels that neither triangles nor extension polygons reached
+
+  /// Pixel of map coordinates, clamped to the image.
+  [[nodiscard]] std::uint32_t idAt(const dvec2& mapCoords) const {
+    const int n = ids.width();
+    const int x = std::clamp(int((mapCoords.x + 1.0) * 0.5 * n), 0, n - 1);
+    const int y = std::clamp(int((mapCoords.y + 1.0) * 0.5 * n), 0, n - 1);
+    return ids.at(x, y);
+  }
 };
 
 /// Item buffer: what of the reflector (skirt included) the eye sees. Map coordinates of directions *from the
@@ -48,23 +65,29 @@ struct ExplosionMap {
 struct HiddenMap {
   dvec3 eye{0};
   MapFrame frame;
-  dvec2 lower{-1, -1}, scale{1, 1};  ///< pixel = (coords - lower) * scale
-  core::Image<std::uint32_t> ids;    ///< triangle index, core::kNoId where the reflector is not seen
-  core::Image<float> distances;      ///< from the eye
+  dvec2 lower{-1, -1}, pixelsPerUnit{1, 1};  ///< pixel = (coords - lower) * pixelsPerUnit
+  core::Image<std::uint32_t> ids;            ///< triangle index, core::kNoId where the reflector is not seen
+  core::Image<float> distances;              ///< from the eye
 };
 
 /// Scratch memory, kept from eye to eye.
 struct MapScratch {
-  std::vector<std::uint8_t> facing;
-  std::vector<dvec3> fixedNormals;
+  std::vector<std::uint8_t> isFront;   ///< of every welded vertex
+  std::vector<dvec3> directions;       ///< reflected ray of every welded vertex, normals fixed up
+  std::vector<std::uint8_t> isMapped;  ///< of every triangle
   std::vector<dvec2> coords;
-  std::vector<double> distances;
+  std::vector<float> distances;
   std::vector<std::uint32_t> queue;
 };
 
-void fillExplosionMap(const ReflectorMesh& mesh, const dvec3& eye, double radius, int resolution,
-                      ExplosionMap& map, MapScratch& scratch);
-void fillHiddenMap(const ReflectorMesh& mesh, const dvec3& eye, int resolution, HiddenMap& map,
-                   MapScratch& scratch);
+/// The reflected rays of all vertices (1998, fig. 6 steps 3 and 7), the same for both maps. Returns the
+/// number of ordinary triangles with a front-facing corner.
+std::size_t computeReflectedRays(const ReflectorMesh& mesh, const dvec3& eye, MapScratch& scratch);
+
+/// Fills a map of the rays in `scratch` (fig. 6 steps 3 to 6). The map's images keep their size.
+void fillExplosionMap(const ReflectorMesh& mesh, const dvec3& eye, double radius, MapScratch& scratch,
+                      ExplosionMap& map);
+
+void fillHiddenMap(const ReflectorMesh& mesh, const dvec3& eye, MapScratch& scratch, HiddenMap& map);
 
 }  // namespace catoptric::virtual_object

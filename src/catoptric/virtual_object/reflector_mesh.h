@@ -75,6 +75,10 @@ class ReflectorMesh {
  private:
   void build(std::span<const vec3> positions, std::span<const vec3> normals,
              std::span<const std::uint32_t> indices, const ReflectorMeshOptions& options);
+  void addBody(std::span<const vec3> positions, std::span<const vec3> normals,
+               std::span<const std::uint32_t> indices, bool flipped);
+  void addSkirt(std::span<const std::uint32_t> boundary, const ReflectorMeshOptions& options);
+  void addSkirtTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
   std::vector<MirrorTriangle> triangles_;
   std::vector<std::uint32_t> corners_;

@@ -20,6 +20,7 @@
 #include "catoptric/core/image.h"
 #include "catoptric/core/math.h"
 #include "catoptric/virtual_object/explosion_map.h"
+#include "catoptric/virtual_object/reflection_point.h"
 #include "catoptric/virtual_object/reflector_mesh.h"
 
 namespace catoptric::virtual_object {
@@ -83,6 +84,8 @@ class VirtualObjectSolver {
   [[nodiscard]] ReflectionPoint solveExplosion(const dvec3& scenePoint) const;
   [[nodiscard]] ReflectionPoint solveRefined(const dvec3& scenePoint) const;
   [[nodiscard]] ReflectionPoint solveHidden(const dvec3& scenePoint) const;
+  [[nodiscard]] ReflectionPoint solve(Solver solver, const dvec3& scenePoint) const;
+  [[nodiscard]] SurfacePoint findSeed(const dvec3& scenePoint) const;
 
   const ReflectorMesh* mesh_;
   dvec3 eye_{0};
@@ -91,6 +94,7 @@ class VirtualObjectSolver {
   bool canReflect_ = false;
   ExplosionMap nearMap_, farMap_;
   HiddenMap hiddenMap_;
+  MapScratch scratch_;
 };
 
 }  // namespace catoptric::virtual_object

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fills triangles with integers, exactly: pixel centres, 1/256 pixel vertices, top-left rule. Triangles that
+// share an edge leave no gap and no pixel twice; there is no blending and no colour rounding that could spoil
+// an id (the papers draw ids as colours). Either winding.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "catoptric/core/math.h"
+
+namespace catoptric::virtual_object {
+
+struct EdgeFunction {
+  std::int64_t stepX, stepY, value;  // value at the first pixel; inside: value >= 0
+};
+
+/// Calls visit(x, y, weights) for every pixel of a width x height raster whose centre lies in the triangle;
+/// weights are barycentric. Vertices in pixels, (0,0) the corner of pixel (0,0). Vertices beyond +-10^6 px
+/// are refused.
+template <class Visit>
+void rasterizeTriangle(const std::array<dvec2, 3>& verticesPx, int width, int height, Visit&& visit) {
+  constexpr std::int64_t kSub = 256;
+  std::array<std::int64_t, 3> x, y;
+  for (int i = 0; i < 3; ++i) {
+    if (!(std::abs(verticesPx[i].x) < 1e6) || !(std::abs(verticesPx[i].y) < 1e6)) return;
+    x[i] = std::llround(verticesPx[i].x * double(kSub));
+    y[i] = std::llround(verticesPx[i].y * double(kSub));
+  }
+  std::int64_t area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
+  if (area == 0) return;
+  const bool swapped = area < 0;
+  if (swapped) std::swap(x[1], x[2]), std::swap(y[1], y[2]), area = -area;
+
+  const auto floorPixel = [](std::int64_t v) { return (v - kSub / 2 + kSub - 1) >> 8; };  // first centre >= v
+  const int x0 = int(std::max<std::int64_t>(0, floorPixel(std::min({x[0], x[1], x[2]}))));
+  const int y0 = int(std::max<std::int64_t>(0, floorPixel(std::min({y[0], y[1], y[2]}))));
+  const int x1 = int(std::min<std::int64_t>(width - 1, (std::max({x[0], x[1], x[2]}) - kSub / 2) >> 8));
+  const int y1 = int(std::min<std::int64_t>(height - 1, (std::max({y[0], y[1], y[2]}) - kSub / 2) >> 8));
+  if (x0 > x1 || y0 > y1) return;
+
+  std::array<EdgeFunction, 3> edges;  // edge i lies opposite vertex i
+  std::array<std::int64_t, 3> bias;
+  for (int i = 0; i < 3; ++i) {
+    const int a = (i + 1) % 3, b = (i + 2) % 3;
+    const std::int64_t dx = x[b] - x[a], dy = y[b] - y[a];
+    edges[i].stepX = -dy * kSub;
+    edges[i].stepY = dx * kSub;
+    edges[i].value = dx * (y0 * kSub + kSub / 2 - y[a]) - dy * (x0 * kSub + kSub / 2 - x[a]);
+    bias[i] = (dy < 0 || (dy == 0 && dx > 0)) ? 0 : -1;  // a pixel on an edge belongs to one side only
+  }
+  const double inverseArea = 1.0 / double(area);
+  for (int py = y0; py <= y1; ++py) {
+    std::int64_t w0 = edges[0].value, w1 = edges[1].value, w2 = edges[2].value;
+    for (int px = x0; px <= x1; ++px) {
+      if (w0 + bias[0] >= 0 && w1 + bias[1] >= 0 && w2 + bias[2] >= 0) {
+        const dvec3 weights(double(w0) * inverseArea, double(w1) * inverseArea, double(w2) * inverseArea);
+        visit(px, py, swapped ? dvec3(weights.x, weights.z, weights.y) : weights);
+      }
+      w0 += edges[0].stepX, w1 += edges[1].stepX, w2 += edges[2].stepX;
+    }
+    for (auto& edge : edges) edge.value += edge.stepY;
+  }
+}
+
+}  // namespace catoptric::virtual_object

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// A mirror turns every triangle's orientation round, as seen from the eye against as seen from the mirror. A
+// triangle that reaches around the reflector's shadow does not: its corners come to lie all around the rim,
+// and drawn it would cover the mirror from rim to rim with what belongs into a ring thinner than a pixel.
+// Orientation finds it.
+#include "catoptric/virtual_object/virtual_triangles.h"
+
+#include <cassert>
+#include <cmath>
+
+namespace catoptric::virtual_object {
+namespace {
+
+constexpr float kEdgeOn = 0.02f;  // sine below which a face says nothing about its orientation
+
+/// +1 where all three points lie in front of their triangle's plane, -1 behind, 0 mixed or nearly in it.
+int findSide(const vec3& normal, const vec3 offsets[3]) {
+  const float scale = kEdgeOn * std::sqrt(glm::dot(normal, normal));
+  int side = 0;
+  for (int k = 0; k < 3; ++k) {
+    const float height = glm::dot(normal, offsets[k]);
+    const float least = scale * std::sqrt(glm::dot(offsets[k], offsets[k]));
+    const int here = height > least ? 1 : height < -least ? -1 : 0;
+    if (here == 0 || (k > 0 && here != side)) return 0;
+    side = here;
+  }
+  return side;
+}
+
+/// Real corners q, virtual ones w, reflection points j; eye.
+bool isInsideOut(const vec3 q[3], const vec3 w[3], const vec3 j[3], const vec3& eye) {
+  const vec3 normal = glm::cross(q[1] - q[0], q[2] - q[0]);
+  const vec3 towardsMirror[3] = {j[0] - q[0], j[1] - q[1], j[2] - q[2]};
+  const int real = findSide(normal, towardsMirror);
+  if (real == 0) return false;
+  const vec3 towardsEye = eye - w[0];
+  const float image = glm::dot(glm::cross(w[1] - w[0], w[2] - w[0]), towardsEye);
+  return image * float(real) > 0.0f;
+}
+
+}  // namespace
+
+void selectVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
+                            std::span<const vec3> virtualPositions, std::span<const VertexKind> kinds,
+                            std::span<const vec3> reflectionPoints, VirtualTriangles& out) {
+  assert(virtualPositions.size() == objects.positions.size() && kinds.size() == objects.positions.size());
+  assert(reflectionPoints.size() == objects.positions.size());
+  out.indices.clear();
+  out.parts.clear();
+  const vec3 eyeF(eye);
+  for (const TessellatedPart& part : objects.parts) {
+    TessellatedPart run = part;
+    run.firstIndex = std::uint32_t(out.indices.size());
+    for (std::uint32_t i = part.firstIndex; i < part.firstIndex + part.indexCount; i += 3) {
+      const std::uint32_t v[3] = {objects.indices[i], objects.indices[i + 1], objects.indices[i + 2]};
+      const VertexKind a = kinds[v[0]], b = kinds[v[1]], c = kinds[v[2]];
+      if (a == VertexKind::None || b == VertexKind::None || c == VertexKind::None) continue;
+      if (a != VertexKind::Reflected && b != VertexKind::Reflected && c != VertexKind::Reflected) continue;
+      const vec3 q[3] = {objects.positions[v[0]], objects.positions[v[1]], objects.positions[v[2]]};
+      const vec3 w[3] = {virtualPositions[v[0]], virtualPositions[v[1]], virtualPositions[v[2]]};
+      const vec3 j[3] = {reflectionPoints[v[0]], reflectionPoints[v[1]], reflectionPoints[v[2]]};
+      if (isInsideOut(q, w, j, eyeF)) continue;
+      out.indices.insert(out.indices.end(), v, v + 3);
+    }
+    run.indexCount = std::uint32_t(out.indices.size()) - run.firstIndex;
+    out.parts.push_back(run);
+  }
+}
+
+}  // namespace catoptric::virtual_object
