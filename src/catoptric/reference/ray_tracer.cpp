@@ -5,7 +5,9 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 
+#include "catoptric/core/error.h"
 #include "catoptric/core/parallel.h"
 #include "catoptric/reference/embree_scene.h"
 #include "catoptric/reference/surface_shading.h"
@@ -26,6 +28,17 @@ class FlushDenormals {
   unsigned before_;
 };
 
+bool isFinite(const dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+void checkCamera(const scene::CameraFrame& camera) {
+  const dvec3 corner = camera.rayDirection(0, 0);
+  if (!isFinite(camera.eye) || !isFinite(corner) || !(glm::length(corner) > 0))
+    throw core::Error("camera.not_finite", "the camera has no finite position or direction", {},
+                      "eye and target must be finite and apart");
+}
+
 }  // namespace
 
 struct RayTracer::Impl {
@@ -45,6 +58,7 @@ RayTracer::RayTracer(const scene::Scene& scene, const scene::WorldGeometry& geom
 RayTracer::~RayTracer() = default;
 
 TraceResult RayTracer::trace(const scene::CameraFrame& camera, const TraceOptions& options) const {
+  checkCamera(camera);
   const auto start = std::chrono::steady_clock::now();
   TraceResult result;
   result.radiance = core::ImageRgbaF(camera.widthPx, camera.heightPx, vec4(0, 0, 0, 1));

@@ -46,6 +46,7 @@ class RayTracer {
   RayTracer(const RayTracer&) = delete;
   RayTracer& operator=(const RayTracer&) = delete;
 
+  /// The same bytes on every run and with any number of threads. Throws core::Error("camera.not_finite").
   [[nodiscard]] TraceResult trace(const scene::CameraFrame& camera, const TraceOptions& options) const;
 
   /// "Embree 3.13.5 (Debian build, asserts on), ISA ..., N threads"
