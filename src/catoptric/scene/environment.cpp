@@ -90,7 +90,9 @@ core::ImageRgbF halveImage(const core::ImageRgbF& source) {
         vec3 sum(0);
         for (int j = 0; j < rows.count; ++j) {
           const vec3* texels = &source.at(columns.first, rows.first + j);
-          for (int i = 0; i < columns.count; ++i) sum += texels[i] * (columns.weights[i] * rows.weights[j]);
+          vec3 rowSum(0);  // apart, so that equal texels give exactly that texel
+          for (int i = 0; i < columns.count; ++i) rowSum += texels[i] * columns.weights[i];
+          sum += rowSum * rows.weights[j];
         }
         result.at(x, int(y)) = sum;
       }

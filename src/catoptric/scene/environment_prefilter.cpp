@@ -41,10 +41,13 @@ struct LobeSample {
   int mip = 0;
 };
 
-/// The same in map coordinates for one row of the result: u is relative to the column.
+/// The same in texels of its mip level, for one row of the result: what all columns share of a bilinear
+/// look-up.
 struct RowSample {
-  float u = 0, v = 0, weight = 0;
-  const core::ImageRgbF* map = nullptr;
+  const vec3 *top = nullptr, *bottom = nullptr;  // rows of the level
+  float weightTop = 0, weightBottom = 0;
+  float x = 0;  // of the left texel for u = 0, in 0..width
+  int width = 0;
 };
 
 double radicalInverse(std::uint32_t i) {
@@ -97,12 +100,34 @@ std::vector<RowSample> turnToRow(std::span<const LobeSample> lobe, double v,
   std::vector<RowSample> row;
   row.reserve(lobe.size());
   for (const LobeSample& sample : lobe) {
+    const core::ImageRgbF& map = mips[std::size_t(sample.mip)];
     const dvec3 d = sample.direction.x * side + sample.direction.y * up + sample.direction.z * n;
-    row.push_back({float(std::atan2(d.x, -d.z) / (2.0 * kPi)),
-                   float(std::acos(std::clamp(d.y, -1.0, 1.0)) / kPi), float(sample.weight),
-                   &mips[std::size_t(sample.mip)]});
+    const double du = std::atan2(d.x, -d.z) / (2.0 * kPi);
+    const double x = du * map.width() - 0.5;
+    const double y =
+        std::clamp(std::acos(std::clamp(d.y, -1.0, 1.0)) / kPi * map.height() - 0.5, 0.0, map.height() - 1.0);
+    const int top = int(y), bottom = std::min(top + 1, map.height() - 1);
+    row.push_back({&map.at(0, top), &map.at(0, bottom), float(sample.weight * (1.0 - (y - top))),
+                   float(sample.weight * (y - top)), float(x - std::floor(x / map.width()) * map.width()),
+                   map.width()});
   }
   return row;
+}
+
+/// sampleLatLong() of all samples at once, for the column at u.
+vec3 sumSamples(std::span<const RowSample> samples, float u) {
+  vec3 sum(0);
+  for (const RowSample& sample : samples) {
+    const float x = u * float(sample.width) + sample.x;
+    const int xi = int(x);
+    int left = xi;
+    while (left >= sample.width) left -= sample.width;  // once, or twice by rounding
+    const int right = left + 1 < sample.width ? left + 1 : 0;
+    const float f = x - float(xi);
+    sum += (sample.top[left] * (1.0f - f) + sample.top[right] * f) * sample.weightTop;
+    sum += (sample.bottom[left] * (1.0f - f) + sample.bottom[right] * f) * sample.weightBottom;
+  }
+  return sum;
 }
 
 core::ImageRgbF resizeMap(const core::ImageRgbF& source) {
@@ -124,13 +149,8 @@ core::ImageRgbF blurMap(double roughness, std::span<const core::ImageRgbF> mips)
   core::parallelFor(std::size_t(height), 2, [&](std::size_t begin, std::size_t end) {
     for (std::size_t y = begin; y < end; ++y) {
       const std::vector<RowSample> samples = turnToRow(lobe, (double(y) + 0.5) / height, mips);
-      for (int x = 0; x < width; ++x) {
-        const float u = (float(x) + 0.5f) / float(width);
-        vec3 sum(0);
-        for (const RowSample& sample : samples)
-          sum += sampleLatLong(*sample.map, u + sample.u, sample.v) * sample.weight;
-        result.at(x, int(y)) = sum;
-      }
+      for (int x = 0; x < width; ++x)
+        result.at(x, int(y)) = sumSamples(samples, (float(x) + 0.5f) / float(width));
     }
   });
   return isWide ? resizeMap(result) : result;
