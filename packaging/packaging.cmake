@@ -21,24 +21,32 @@ add_library(catoptric_shared SHARED ${objects})
 target_link_libraries(catoptric_shared PRIVATE catoptric_flags catoptric_glad ${third_parties})
 target_compile_features(catoptric_shared INTERFACE cxx_std_20)
 target_include_directories(catoptric_shared INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
-                                               $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/catoptric/shaders>)
-set_target_properties(catoptric_shared PROPERTIES OUTPUT_NAME catoptric EXPORT_NAME catoptric LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION}
-                                           SOVERSION ${PROJECT_VERSION_MAJOR})
+                                                      $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/catoptric/shaders>)
+# The target cannot be called catoptric: the command's file is.
+set_target_properties(catoptric_shared PROPERTIES OUTPUT_NAME catoptric EXPORT_NAME catoptric LINKER_LANGUAGE CXX
+                                                  VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
 target_link_options(catoptric_shared PRIVATE LINKER:--no-undefined)
 if(CATOPTRIC_SANITIZE) # the sanitizers' symbols come from the executable
   set_target_properties(catoptric_shared PROPERTIES EXCLUDE_FROM_ALL ON)
   return()
 endif()
 
-# tool
+# tool; its man page and completions come from docs/command-line.md
+set(command_docs ${CMAKE_BINARY_DIR}/packaging/command_docs)
+add_custom_command(
+  OUTPUT ${command_docs}/catoptric.1
+  BYPRODUCTS ${command_docs}/catoptric.bash ${command_docs}/_catoptric ${command_docs}/catoptric.fish
+  COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/scripts/command_docs.py ${PROJECT_VERSION} ${command_docs}
+  DEPENDS ${CMAKE_SOURCE_DIR}/scripts/command_docs.py ${CMAKE_SOURCE_DIR}/docs/command-line.md
+  COMMENT "Making the man page and the shell completions")
+add_custom_target(catoptric_command_docs ALL DEPENDS ${command_docs}/catoptric.1)
 install(TARGETS catoptric_app RUNTIME COMPONENT tool)
-install(FILES ${CMAKE_CURRENT_LIST_DIR}/catoptric.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tool)
-install(FILES ${CMAKE_CURRENT_LIST_DIR}/completions/catoptric.bash
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME catoptric COMPONENT tool)
-install(FILES ${CMAKE_CURRENT_LIST_DIR}/completions/_catoptric
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT tool)
-install(FILES ${CMAKE_CURRENT_LIST_DIR}/completions/catoptric.fish
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT tool)
+install(FILES ${command_docs}/catoptric.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tool)
+install(FILES ${command_docs}/catoptric.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+        RENAME catoptric COMPONENT tool)
+install(FILES ${command_docs}/_catoptric DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT tool)
+install(FILES ${command_docs}/catoptric.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
+        COMPONENT tool)
 
 # library and dev
 install(TARGETS catoptric_shared EXPORT catoptric

@@ -3,20 +3,19 @@
 """check_docs.py [COMMAND]: what the documentation says is there, is there.
 
 - each relative link of a Markdown file leads to a file or folder of the tree;
-- with the built command: each command and each option that its --help names stands in the man page and in the
-  completions of bash, zsh and fish, and each long option of the man page is one that some --help names.
+- with the built command: each option that `catoptric COMMAND --help` names stands in docs/command-line.md in a table for that
+  command, and the reverse. (The man page and the completions are made from that page.)
 """
 import os
 import re
 import subprocess
 import sys
 
+import command_docs
+
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)#\s]+)[^)]*\)")
 IMAGE = re.compile(r'<img[^>]*src="([^"]+)"')
-OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]+")
-TEXTS = ["packaging/catoptric.1", "packaging/completions/catoptric.bash", "packaging/completions/_catoptric",
-         "packaging/completions/catoptric.fish"]
 
 
 def read(path):
@@ -37,40 +36,31 @@ def broken_links():
                     yield f"{path}: link to {target}, which is not there"
 
 
-def options_by_command(command):
-    """Option names by command name, from --help."""
-    def ask(*words):
-        return subprocess.run([command, *words, "--help"], capture_output=True, text=True, check=True).stdout
-
-    top = ask()
-    known = ["info", "render", "compare", "bench", "bake", "view", "scenes"]
-    commands = [name for name in known if re.search(rf"^\s+{name}\b", top, re.M)]
-    return {name: set(re.findall(r"^\s+(?:-\w,\s*)?(--[a-z][a-z-]+)", ask(name), re.M)) for name in commands}
+def help_options(command, name):
+    """Long option names in --help; what follows an option's own column is prose."""
+    text = subprocess.run([command, name, "--help"], capture_output=True, text=True, check=True).stdout
+    return set(re.findall(r"^\s+(?:-\w,\s*)?(--[a-z][a-z0-9-]+)", text, re.M))
 
 
-def missing_options(command):
-    options = options_by_command(command)
-    if len(options) < 2:
-        yield "--help of the command lists fewer than two commands"
-    texts = {path: read(path) for path in TEXTS}
-    for path, text in texts.items():
-        plain = text.replace("\\-", "-")
-        bare = re.sub(r"-l (\w[\w-]*)", r"--\1", plain)  # fish writes  -l name
-        for name, names in options.items():
-            if not re.search(rf"\b{name}\b", bare):
-                yield f"{path}: command {name} is missing"
-            for option in sorted(names):
-                if not re.search(rf"(?<![\w-]){option}(?![\w-])", bare):
-                    yield f"{path}: {option} of `catoptric {name}` is missing"
-    every = set().union(*options.values()) | {"--help", "--version"}
-    for option in sorted(set(OPTION.findall(texts[TEXTS[0]].replace("\\-", "-"))) - every):
-        yield f"{TEXTS[0]}: {option} is described, but no command takes it"
+def differing_options(command):
+    commands, options = command_docs.read_page(read("docs/command-line.md"))
+    top = subprocess.run([command, "--help"], capture_output=True, text=True, check=True).stdout
+    section = top.split("Commands:", 1)[-1].split("\n\n", 1)[0]
+    existing = re.findall(r"^  (\w+) ", section, re.M)
+    if sorted(existing) != sorted(commands):
+        yield f"docs/command-line.md: commands {sorted(commands)}, but --help has {sorted(existing)}"
+        return
+    for name in commands:
+        described = {option.long for option in options if name in option.commands}
+        taken = help_options(command, name)
+        yield from (f"docs/command-line.md: {o} of `catoptric {name}` is missing" for o in sorted(taken - described))
+        yield from (f"docs/command-line.md: `catoptric {name}` takes no {o}" for o in sorted(described - taken))
 
 
 def main():
     errors = list(broken_links())
     if len(sys.argv) > 1:
-        errors += missing_options(sys.argv[1])
+        errors += differing_options(sys.argv[1])
     print("\n".join(errors), file=sys.stderr, end="\n" if errors else "")
     print(f"docs: {len(errors)} errors")
     sys.exit(1 if errors else 0)
