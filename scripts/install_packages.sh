@@ -7,12 +7,12 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 list=$root/packaging/system-packages.txt
 with_checks=${1:-}
 
-wanted=()
+wanted=() group=always
 while read -r line; do
   case $line in
-    "# group: check"*) [ "$with_checks" = --with-checks ] || break ;;
+    "# group: "*) group=${line#"# group: "} ;;
     "" | "#"*) ;;
-    *) wanted+=("$line") ;;
+    *) if [ "$group" != check ] || [ "$with_checks" = --with-checks ]; then wanted+=("$line"); fi ;;
   esac
 done <"$list"
 
