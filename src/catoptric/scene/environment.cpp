@@ -12,6 +12,7 @@
 #include "catoptric/core/image_io.h"
 #include "catoptric/core/log.h"
 #include "catoptric/core/parallel.h"
+#include "catoptric/scene/environment_mips.h"
 #include "catoptric/scene/environment_prefilter.h"
 #include "catoptric/scene/sky.h"
 
@@ -65,42 +66,6 @@ void repairRadiance(core::ImageRgbF& map) {
                                      total.peak, kLargestHalf, total.tooBright));
 }
 
-/// Which source texels make one texel of the next level: two, or three where the size is odd, so that each
-/// source texel counts the same in total.
-struct Taps {
-  int first = 0, count = 1;
-  float weights[3] = {1, 0, 0};
-};
-
-Taps findTaps(int i, int sourceSize) {
-  const int half = sourceSize / 2;
-  if (sourceSize == 1) return {};
-  if (sourceSize % 2 == 0) return {2 * i, 2, {0.5f, 0.5f, 0.0f}};
-  const float n = float(sourceSize);
-  return {2 * i, 3, {float(half - i) / n, float(half) / n, float(i + 1) / n}};
-}
-
-core::ImageRgbF halveImage(const core::ImageRgbF& source) {
-  core::ImageRgbF result(std::max(source.width() / 2, 1), std::max(source.height() / 2, 1));
-  core::parallelFor(std::size_t(result.height()), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t y = begin; y < end; ++y) {
-      const Taps rows = findTaps(int(y), source.height());
-      for (int x = 0; x < result.width(); ++x) {
-        const Taps columns = findTaps(x, source.width());
-        vec3 sum(0);
-        for (int j = 0; j < rows.count; ++j) {
-          const vec3* texels = &source.at(columns.first, rows.first + j);
-          vec3 rowSum(0);  // apart, so that equal texels give exactly that texel
-          for (int i = 0; i < columns.count; ++i) rowSum += texels[i] * columns.weights[i];
-          sum += rowSum * rows.weights[j];
-        }
-        result.at(x, int(y)) = sum;
-      }
-    }
-  });
-  return result;
-}
-
 }  // namespace
 
 Environment makeSkyEnvironment() {
@@ -126,9 +91,7 @@ Environment makeEnvironment(core::ImageRgbF latitudeLongitude) {
     throw core::Error("environment.empty", "the environment image has no pixels");
   repairRadiance(latitudeLongitude);
   Environment environment;
-  environment.radiance.push_back(std::move(latitudeLongitude));
-  while (environment.radiance.back().size() > 1)
-    environment.radiance.push_back(halveImage(environment.radiance.back()));
+  environment.radiance = makeEnvironmentMips(std::move(latitudeLongitude));
   environment.prefiltered = prefilterEnvironment(environment.radiance, kPrefilteredLevels);
   environment.irradiance = projectIrradiance(environment.radiance);
   return environment;

@@ -44,15 +44,8 @@ float smoothStep(float low, float high, float x) {
   return t * t * (3.0f - 2.0f * t);
 }
 
-/// Integer hash of a lattice point (Wellons' "lowbias32").
-std::uint32_t hashLattice(int x, int y) {
-  std::uint32_t h = std::uint32_t(x) * 0x9E3779B1u ^ std::uint32_t(y) * 0x85EBCA77u;
-  h = (h ^ (h >> 16)) * 0x7FEB352Du;
-  h = (h ^ (h >> 15)) * 0x846CA68Bu;
-  return h ^ (h >> 16);
-}
-
-/// Dot product of the offset with one of eight gradients.
+/// Dot product of the offset with one of eight gradients, chosen by a multiplicative hash of the lattice
+/// point.
 float gradientDot(int latticeX, int latticeY, float x, float y) {
   static constexpr float kGradients[8][2] = {{1, 0},
                                              {-1, 0},
@@ -62,16 +55,23 @@ float gradientDot(int latticeX, int latticeY, float x, float y) {
                                              {-0.707f, 0.707f},
                                              {0.707f, -0.707f},
                                              {-0.707f, -0.707f}};
-  const float* g = kGradients[hashLattice(latticeX, latticeY) & 7u];
+  std::uint32_t hash = std::uint32_t(latticeX) * 0x9E3779B1u ^ std::uint32_t(latticeY) * 0x85EBCA77u;
+  hash = (hash ^ (hash >> 15)) * 0x846CA68Bu;
+  const float* g = kGradients[hash >> 29];
   return g[0] * x + g[1] * y;
+}
+
+/// std::floor is a function call on the oldest processors that we build for.
+int floorToInt(float x) {
+  const int truncated = int(x);
+  return float(truncated) > x ? truncated - 1 : truncated;
 }
 
 /// Gradient noise, about -0.7..0.7.
 float noise(float x, float y) {
-  const float fx = std::floor(x), fy = std::floor(y);
-  const int ix = int(fx), iy = int(fy);
-  x -= fx;
-  y -= fy;
+  const int ix = floorToInt(x), iy = floorToInt(y);
+  x -= float(ix);
+  y -= float(iy);
   const float wx = x * x * x * (x * (x * 6.0f - 15.0f) + 10.0f),
               wy = y * y * y * (y * (y * 6.0f - 15.0f) + 10.0f);
   const float top = glm::mix(gradientDot(ix, iy, x, y), gradientDot(ix + 1, iy, x - 1.0f, y), wx);
