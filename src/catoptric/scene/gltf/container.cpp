@@ -74,7 +74,7 @@ Container openContainer(Context& context, std::span<const std::byte> bytes) {
     return {.json = bytes, .binary = {}};
   bytes = checkHeader(context, bytes);
   Container out{.json = {}, .binary = {}, .isGlb = true};
-  bool hasJson = false;
+  bool hasJson = false, isSecond = false;
   for (std::size_t offset = kHeaderBytes; offset < bytes.size();) {
     if (bytes.size() - offset < kChunkHeaderBytes)
       context.fail("gltf.glb", fmt::format("the GLB ends within the chunk header at byte {}", offset));
@@ -96,9 +96,11 @@ Container openContainer(Context& context, std::span<const std::byte> bytes) {
       out.json = data;
       hasJson = true;
     } else if (type == kChunkBinary) {
+      if (!isSecond) context.fail("gltf.glb", "the BIN chunk must be the second chunk of the GLB");
       out.binary = data;
       out.hasBinary = true;
     }  // chunks of other types are for extensions and are to be skipped
+    isSecond = type == kChunkJson;
   }
   return out;
 }

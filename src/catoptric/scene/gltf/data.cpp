@@ -104,10 +104,9 @@ std::span<const std::byte> Data::viewBytes(int bufferView) const {
   const BufferView& view = model_.bufferViews[std::size_t(bufferView)];
   const std::span<const std::byte> buffer = buffers_[std::size_t(view.buffer)];
   if (buffer.empty())
-    context_.fail(
-        "gltf.buffer_size",
-        "the buffer has no data of its own, it needs EXT_meshopt_compression, which is not supported",
-        fmt::format("/bufferViews/{}", bufferView), "export it without that extension");
+    context_.fail("gltf.buffer_size", "the buffer has no data, neither by a URI nor in the file",
+                  fmt::format("/bufferViews/{}", bufferView),
+                  "if it was made with EXT_meshopt_compression, export it without");
   return buffer.subspan(view.byteOffset, view.byteLength);
 }
 

@@ -28,7 +28,7 @@ Scene importFrom(gltf::Context& context, std::span<const std::byte> bytes,
   gltf::Model model;
   {
     const gltf::Json json = gltf::parseJson(context, container.json);
-    model = gltf::readModel(context, gltf::Element(context, json), container.hasBinary);
+    model = gltf::readModel(context, gltf::Element(context, json), container);
   }
   const gltf::Data data(context, model, baseFolder, container.binary);
 

@@ -122,10 +122,10 @@ void readAssetAndExtensions(Context& context, const Element& root, Model& model)
     }
 }
 
-Model readModel(Context& context, const Element& root, bool hasBinaryChunk) {
+Model readModel(Context& context, const Element& root, const Container& container) {
   Model model;
   readAssetAndExtensions(context, root, model);
-  readBuffers(context, root, model, hasBinaryChunk);
+  readBuffers(context, root, model, container);
   readAccessors(context, root, model);
   readTextures(context, root, model);
   readMaterials(context, root, model);

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "catoptric/core/math.h"
+#include "catoptric/scene/gltf/container.h"
 #include "catoptric/scene/gltf/element.h"
 #include "catoptric/scene/material.h"
 
@@ -114,6 +115,7 @@ struct Node {
   int parent = -1;
   int mesh = -1, skin = -1, camera = -1, light = -1;
   dmat4 parentFromNode{1.0};
+  bool hasMatrix = false;  ///< Given as a matrix, which must not be animated.
   std::vector<float> weights;
   Attributes instancing;  ///< EXT_mesh_gpu_instancing: TRANSLATION, ROTATION, SCALE.
   ReflectorHint hint;
@@ -161,11 +163,11 @@ struct Model {
 };
 
 /// The whole document. Throws core::Error for whatever breaks the rules; docs/gltf.md lists them.
-[[nodiscard]] Model readModel(Context& context, const Element& root, bool hasBinaryChunk);
+[[nodiscard]] Model readModel(Context& context, const Element& root, const Container& container);
 
 // The parts of readModel(), in the order in which it calls them; each may rely on the ones before.
 void readAssetAndExtensions(Context& context, const Element& root, Model& model);
-void readBuffers(Context& context, const Element& root, Model& model, bool hasBinaryChunk);
+void readBuffers(Context& context, const Element& root, Model& model, const Container& container);
 void readAccessors(Context& context, const Element& root, Model& model);
 void readTextures(Context& context, const Element& root, Model& model);
 void readMaterials(Context& context, const Element& root, Model& model);

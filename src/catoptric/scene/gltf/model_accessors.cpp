@@ -138,15 +138,15 @@ void readAccessor(const Element& element, Model& model) {
 
 }  // namespace
 
-void readBuffers(Context&, const Element& root, Model& model, bool hasBinaryChunk) {
+void readBuffers(Context&, const Element& root, Model& model, const Container& container) {
   forEachObject(root, "buffers", [&](const Element& element, std::size_t index) {
     Buffer buffer;
     buffer.byteLength = element.getInteger("byteLength", 1);
     if (element.has("uri")) buffer.uri = element.getString("uri");
-    // Without a URI only the BIN chunk is left. A placeholder for EXT_meshopt_compression has neither.
-    const bool isPlaceholder = element.findExtension("EXT_meshopt_compression").has_value();
-    if (!buffer.uri && !isPlaceholder && !(index == 0 && hasBinaryChunk))
-      element.fail("gltf.buffer_size", "the buffer has neither a URI nor a BIN chunk",
+    // A buffer without data may be a placeholder of an extension: it is refused when something wants its
+    // bytes.
+    if (!buffer.uri && index == 0 && container.isGlb && !container.hasBinary)
+      element.fail("gltf.buffer_size", "the GLB has no BIN chunk for this buffer",
                    "the file is damaged or was cut short");
     model.buffers.push_back(std::move(buffer));
   });

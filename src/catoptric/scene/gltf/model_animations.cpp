@@ -67,6 +67,8 @@ void readChannel(const Element& element, const Model& model, const std::vector<A
     target.fail("gltf.duplicate",
                 fmt::format("two channels of the animation drive the {} of node {}", path, node));
   const Node& driven = model.nodes[std::size_t(node)];
+  if (isTransform && driven.hasMatrix)
+    target.fail("gltf.value", fmt::format("node {} has a matrix, which cannot be animated", node));
   if (path == "weights" &&
       (driven.mesh < 0 || model.meshes[std::size_t(driven.mesh)].primitives.front().targets.empty()))
     target.fail("gltf.value",

@@ -86,6 +86,7 @@ void readNode(Context& context, const Element& element, Model& model, std::size_
     node.light = light->getIndex("light", model.lights.size(), "light");
   if (node.skin >= 0 && node.mesh < 0)
     element.find("skin")->fail("gltf.missing", "a node with a skin needs a mesh");
+  node.hasMatrix = element.has("matrix");
   node.parentFromNode = readTransform(context, element);
   readWeights(element, model, node);
   if (const auto instancing = element.findExtension("EXT_mesh_gpu_instancing"); instancing && node.mesh >= 0)

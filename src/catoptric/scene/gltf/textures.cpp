@@ -6,6 +6,8 @@
 #include <map>
 #include <tuple>
 
+#include "catoptric/scene/gltf/uri.h"
+
 namespace catoptric::scene::gltf {
 namespace {
 
@@ -38,6 +40,19 @@ class TextureTable {
     return entry->second;
   }
 
+  /// Images that no material uses are not decoded, but their URIs must keep the rules.
+  void checkUnusedImages() const {
+    for (std::size_t i = 0; i < data_.model().images.size(); ++i) {
+      const std::optional<std::string>& uri = data_.model().images[i].uri;
+      if (!uri || images_.contains(int(i))) continue;
+      const std::string pointer = fmt::format("/images/{}/uri", i);
+      if (isDataUri(*uri))
+        (void)decodeDataUri(data_.context(), *uri, pointer);
+      else
+        (void)checkFileUri(data_.context(), *uri, pointer);
+    }
+  }
+
  private:
   /// Two samplers of one image share the decoding, not the pixels.
   core::ImageRgba8 readOnce(int image) {
@@ -64,6 +79,7 @@ void importMaterials(const Data& data, Scene& scene) {
       if (slot->texture >= 0) slot->texture = table.findOrRead(slot->texture);
     scene.materials.push_back(std::move(material));
   }
+  table.checkUnusedImages();
   Material fallback;
   fallback.name = "default";
   scene.materials.push_back(std::move(fallback));

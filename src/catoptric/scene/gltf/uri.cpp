@@ -69,11 +69,10 @@ std::optional<std::vector<std::byte>> decodeBase64(std::string_view text) {
   return out;
 }
 
-/// RFC 3986: a letter, then letters, digits, + - ., then a colon.
+/// A colon before the first slash: a scheme, or what some reader could take for one.
 bool hasScheme(std::string_view uri) {
   const std::size_t colon = uri.find(':');
-  if (colon == std::string_view::npos || colon > uri.find('/')) return false;
-  return true;
+  return colon != std::string_view::npos && colon < uri.find('/');
 }
 
 bool isInside(const fs::path& file, const fs::path& folder) {
@@ -85,6 +84,12 @@ bool startsWithIgnoringCase(std::string_view text, std::string_view lowerCasePre
   return text.size() >= lowerCasePrefix.size() &&
          std::equal(lowerCasePrefix.begin(), lowerCasePrefix.end(), text.begin(),
                     [](char a, char b) { return a == char(std::tolower(static_cast<unsigned char>(b))); });
+}
+
+[[noreturn]] void failUri(const Context& context, const std::string& uri, const std::string& why,
+                          const std::string& pointer) {
+  context.fail("gltf.uri", fmt::format("the URI \"{}\" {}", printable(uri), why), pointer,
+               "only files in the scene's own folder and data: URIs are read");
 }
 
 }  // namespace
@@ -111,32 +116,36 @@ std::vector<std::byte> decodeDataUri(Context& context, std::string_view uri, con
   return std::move(*bytes);
 }
 
-fs::path resolveFileUri(Context& context, const fs::path& folder, const std::string& uri,
-                        const std::string& pointer) {
-  const auto refuse = [&](const std::string& why) {
-    context.fail("gltf.uri", fmt::format("the URI \"{}\" {}", printable(uri), why), pointer,
-                 "only files in the scene's own folder and data: URIs are read");
-  };
+fs::path checkFileUri(Context& context, const std::string& uri, const std::string& pointer) {
+  const auto refuse = [&](const std::string& why) { failUri(context, uri, why, pointer); };
   if (uri.empty()) refuse("is empty");
   if (hasScheme(uri)) refuse("has a scheme");
   const std::string name = decodePercent(uri);
   if (name.find('\0') != std::string::npos) refuse("contains a zero byte");
   if (name.find('\\') != std::string::npos) refuse("contains a backslash; folders are separated by /");
-  const fs::path relative(name);
+  fs::path relative(name);
   if (relative.is_absolute()) refuse("is an absolute path");
   for (const fs::path& part : relative)
     if (part == "..") refuse("leaves the scene's folder");
-  if (folder.empty()) refuse("cannot be resolved, the scene was not read from a folder");
+  return relative;
+}
 
+fs::path resolveFileUri(Context& context, const fs::path& folder, const std::string& uri,
+                        const std::string& pointer) {
+  const fs::path relative = checkFileUri(context, uri, pointer);
+  if (folder.empty())
+    failUri(context, uri, "cannot be resolved, the scene was not read from a folder", pointer);
   std::error_code error;
   const fs::path root = fs::canonical(folder, error);
   const fs::path file = error ? fs::path() : fs::canonical(folder / relative, error);
   if (error)
-    context.fail("gltf.file",
-                 fmt::format("the file \"{}\" that the scene needs cannot be found", printable(name)),
-                 pointer, "put it beside the scene file");
-  if (!isInside(file, root)) refuse("leads out of the scene's folder through a symbolic link");
-  if (!fs::is_regular_file(file, error)) refuse("does not name a regular file");
+    context.fail(
+        "gltf.file",
+        fmt::format("the file \"{}\" that the scene needs cannot be found", printable(relative.string())),
+        pointer, "put it beside the scene file");
+  if (!isInside(file, root))
+    failUri(context, uri, "leads out of the scene's folder through a symbolic link", pointer);
+  if (!fs::is_regular_file(file, error)) failUri(context, uri, "does not name a regular file", pointer);
   return file;
 }
 

@@ -22,6 +22,10 @@ namespace catoptric::scene::gltf {
 [[nodiscard]] std::vector<std::byte> decodeDataUri(Context& context, std::string_view uri,
                                                    const std::string& pointer);
 
+/// The relative path that a file URI stands for. Throws "gltf.uri" if the policy forbids it; touches no file.
+[[nodiscard]] std::filesystem::path checkFileUri(Context& context, const std::string& uri,
+                                                 const std::string& pointer);
+
 /// The file that a relative URI names. Throws "gltf.uri" if it is not allowed, "gltf.file" if it does not
 /// exist.
 [[nodiscard]] std::filesystem::path resolveFileUri(Context& context, const std::filesystem::path& folder,
