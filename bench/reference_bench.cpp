@@ -85,7 +85,11 @@ void traceFrame(benchmark::State& state) {
   static const reference::RayTracer tracer(bench.scene, bench.world, bench.environment);
   const reference::TraceOptions options{.bounces = int(state.range(0))};
   std::uint64_t rays = 0;
-  for (auto _ : state) rays += tracer.trace(bench.frame, options).rays;
+  reference::TraceResult result;
+  for (auto _ : state) {
+    tracer.trace(bench.frame, options, result);
+    rays += result.rays;
+  }
   state.counters["rays_per_second"] = benchmark::Counter(double(rays), benchmark::Counter::kIsRate);
   state.SetLabel(tracer.describe());
 }

@@ -4,9 +4,9 @@
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <vector>
@@ -43,7 +43,6 @@ bool isUsable(const TraceRequest& request) {
 struct QueryContext {
   RTCIntersectContext embree;  // first: Embree hands its address back
   const TraceRequest* requests;
-  const TriangleSet* set;
   const scene::WorldGeometry* geometry;
   const SurfaceShader* shader;
 };
@@ -80,6 +79,25 @@ void filterHits(const RTCFilterFunctionNArguments* args) {
   }
 }
 
+template <class Packet>
+void fillLane(Packet& packet, unsigned lane, const TraceRequest& request, unsigned id) {
+  const vec3 origin(request.ray->origin), direction(request.ray->direction);
+  packet.ray.org_x[lane] = origin.x;
+  packet.ray.org_y[lane] = origin.y;
+  packet.ray.org_z[lane] = origin.z;
+  packet.ray.dir_x[lane] = direction.x;
+  packet.ray.dir_y[lane] = direction.y;
+  packet.ray.dir_z[lane] = direction.z;
+  packet.ray.tnear[lane] = request.tNear;
+  packet.ray.tfar[lane] = std::numeric_limits<float>::infinity();
+  packet.ray.time[lane] = 0;
+  packet.ray.mask[lane] = 0xffffffffu;
+  packet.ray.id[lane] = id;
+  packet.ray.flags[lane] = 0;
+  packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+  packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+}
+
 void checkDevice(RTCDevice device, const char* what) {
   const RTCError error = rtcGetDeviceError(device);
   if (error == RTC_ERROR_NONE) return;
@@ -97,7 +115,7 @@ struct EmbreeScene::Impl {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   std::array<TriangleSet, 2> sets;  // without and with the filter; the index is Embree's geometry number
-  bool hasPackets8 = false;
+  int packetWidth = 8;
 
   Impl(const scene::WorldGeometry& world, const SurfaceShader& shading) : geometry(world), shader(shading) {}
   ~Impl() {
@@ -106,8 +124,18 @@ struct EmbreeScene::Impl {
   }
   void sortTriangles();
   void attach(unsigned id, RTCBuffer positions);
-  void answer(const TraceRequest&, unsigned geometryId, unsigned primitive, float t, float u, float v,
-              TraceAnswer& result) const;
+
+  /// The batch in packets of kWidth, each answered by `query(valid, packet)`.
+  template <class Packet, unsigned kWidth, class Query>
+  void intersectPackets(std::span<const TraceRequest> requests, std::span<TraceAnswer> answers,
+                        const Query& query) const;
+  template <class Packet>
+  TraceAnswer readLane(const Packet& packet, unsigned lane) const {
+    const unsigned id = packet.hit.geomID[lane];
+    if (id == RTC_INVALID_GEOMETRY_ID) return {};
+    return {sets[id].triangles[packet.hit.primID[lane]], packet.ray.tfar[lane], packet.hit.u[lane],
+            packet.hit.v[lane]};
+  }
 };
 
 void EmbreeScene::Impl::sortTriangles() {
@@ -157,7 +185,7 @@ void EmbreeScene::Impl::attach(unsigned id, RTCBuffer positions) {
   checkDevice(device, "taking the triangles");
 }
 
-EmbreeScene::EmbreeScene(const scene::WorldGeometry& geometry, const SurfaceShader& shader)
+EmbreeScene::EmbreeScene(const scene::WorldGeometry& geometry, const SurfaceShader& shader, int packetWidth)
     : impl_(std::make_unique<Impl>(geometry, shader)) {
   Impl& impl = *impl_;
   impl.sortTriangles();
@@ -165,7 +193,8 @@ EmbreeScene::EmbreeScene(const scene::WorldGeometry& geometry, const SurfaceShad
   if (impl.device == nullptr)
     throw core::Error("embree.device",
                       fmt::format("Embree cannot be started (error {})", int(rtcGetDeviceError(nullptr))));
-  impl.hasPackets8 = rtcGetDeviceProperty(impl.device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0;
+  const bool hasPackets8 = rtcGetDeviceProperty(impl.device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0;
+  impl.packetWidth = packetWidth != 0 ? packetWidth : (hasPackets8 ? 8 : 4);
   impl.scene = rtcNewScene(impl.device);
   rtcSetSceneBuildQuality(impl.scene, RTC_BUILD_QUALITY_HIGH);
   rtcSetSceneFlags(impl.scene, RTC_SCENE_FLAG_ROBUST);  // no gaps between neighbouring triangles
@@ -186,110 +215,46 @@ EmbreeScene::EmbreeScene(const scene::WorldGeometry& geometry, const SurfaceShad
 
 EmbreeScene::~EmbreeScene() = default;
 
-void EmbreeScene::intersect(std::span<const TraceRequest> requests, std::span<TraceAnswer> answers,
-                            bool coherent) const {
-  const Impl& impl = *impl_;
-  QueryContext query{};
-  rtcInitIntersectContext(&query.embree);
-  query.embree.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  query.requests = requests.data();
-  query.geometry = &impl.geometry;
-  query.shader = &impl.shader;
-  static const int kernel = std::getenv("CATOPTRIC_KERNEL") ? std::atoi(std::getenv("CATOPTRIC_KERNEL")) : 8;
-  const auto fill = [&](auto& packet, unsigned lane, unsigned i) {
-    const TraceRequest& request = requests[i];
-    const vec3 o(request.ray->origin), d(request.ray->direction);
-    packet.ray.org_x[lane] = o.x, packet.ray.org_y[lane] = o.y, packet.ray.org_z[lane] = o.z;
-    packet.ray.dir_x[lane] = d.x, packet.ray.dir_y[lane] = d.y, packet.ray.dir_z[lane] = d.z;
-    packet.ray.tnear[lane] = request.tNear, packet.ray.tfar[lane] = std::numeric_limits<float>::infinity();
-    packet.ray.time[lane] = 0, packet.ray.mask[lane] = 0xffffffffu, packet.ray.id[lane] = i,
-    packet.ray.flags[lane] = 0;
-    packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-    packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
-  };
-  const auto take = [&](const auto& packet, unsigned lane, unsigned i) {
-    const unsigned g = packet.hit.geomID[lane];
-    if (g == RTC_INVALID_GEOMETRY_ID)
-      answers[i] = {};
-    else
-      answers[i] = {impl.sets[g].triangles[packet.hit.primID[lane]], packet.ray.tfar[lane],
-                    packet.hit.u[lane], packet.hit.v[lane]};
-  };
-  const unsigned count = unsigned(requests.size());
-  if (kernel == 8) {
-    for (unsigned first = 0; first < count; first += 8) {
-      RTCRayHit8 packet;
-      alignas(32) int valid[8];
-      for (unsigned lane = 0; lane < 8; ++lane) {
-        const unsigned i = std::min(first + lane, count - 1);
-        valid[lane] = first + lane < count && isUsable(requests[i]) ? -1 : 0;
-        fill(packet, lane, i);
-      }
-      rtcIntersect8(valid, impl.scene, &query.embree, &packet);
-      for (unsigned lane = 0; lane < 8 && first + lane < count; ++lane) {
-        if (!valid[lane]) packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-        take(packet, lane, first + lane);
-      }
+template <class Packet, unsigned kWidth, class Query>
+void EmbreeScene::Impl::intersectPackets(std::span<const TraceRequest> requests,
+                                         std::span<TraceAnswer> answers, const Query& query) const {
+  const auto count = static_cast<unsigned>(requests.size());
+  for (unsigned first = 0; first < count; first += kWidth) {
+    Packet packet;
+    alignas(64) int valid[kWidth];
+    for (unsigned lane = 0; lane < kWidth; ++lane) {
+      const unsigned i = std::min(first + lane, count - 1);
+      valid[lane] = first + lane < count && isUsable(requests[i]) ? -1 : 0;
+      fillLane(packet, lane, requests[i], i);
     }
-  } else if (kernel == 4) {
-    for (unsigned first = 0; first < count; first += 4) {
-      RTCRayHit4 packet;
-      alignas(32) int valid[4];
-      for (unsigned lane = 0; lane < 4; ++lane) {
-        const unsigned i = std::min(first + lane, count - 1);
-        valid[lane] = first + lane < count && isUsable(requests[i]) ? -1 : 0;
-        fill(packet, lane, i);
-      }
-      rtcIntersect4(valid, impl.scene, &query.embree, &packet);
-      for (unsigned lane = 0; lane < 4 && first + lane < count; ++lane) {
-        if (!valid[lane]) packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-        take(packet, lane, first + lane);
-      }
-    }
-  } else if (kernel == 16) {
-    for (unsigned first = 0; first < count; first += 16) {
-      RTCRayHit16 packet;
-      alignas(64) int valid[16];
-      for (unsigned lane = 0; lane < 16; ++lane) {
-        const unsigned i = std::min(first + lane, count - 1);
-        valid[lane] = first + lane < count && isUsable(requests[i]) ? -1 : 0;
-        fill(packet, lane, i);
-      }
-      rtcIntersect16(valid, impl.scene, &query.embree, &packet);
-      for (unsigned lane = 0; lane < 16 && first + lane < count; ++lane) {
-        if (!valid[lane]) packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-        take(packet, lane, first + lane);
-      }
-    }
-  } else {
-    static thread_local std::vector<RTCRayHit> stream;
-    stream.resize(count);
-    unsigned n = 0;
-    for (unsigned i = 0; i < count; ++i) {
-      answers[i] = {};
-      if (!isUsable(requests[i])) continue;
-      RTCRayHit& r = stream[n++];
-      const vec3 o(requests[i].ray->origin), d(requests[i].ray->direction);
-      r.ray = {
-          o.x,         o.y, o.z, requests[i].tNear, d.x, d.y, d.z, 0, std::numeric_limits<float>::infinity(),
-          0xffffffffu, i,   0};
-      r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-      r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-      if (kernel == 2) rtcIntersect1(impl.scene, &query.embree, &r);
-    }
-    if (kernel == 1) rtcIntersect1M(impl.scene, &query.embree, stream.data(), n, sizeof(RTCRayHit));
-    for (unsigned i = 0; i < n; ++i) {
-      const RTCRayHit& r = stream[i];
-      if (r.hit.geomID != RTC_INVALID_GEOMETRY_ID)
-        answers[r.ray.id] = {impl.sets[r.hit.geomID].triangles[r.hit.primID], r.ray.tfar, r.hit.u, r.hit.v};
-    }
+    query(valid, packet);
+    for (unsigned lane = 0; lane < kWidth && first + lane < count; ++lane)
+      answers[first + lane] = valid[lane] != 0 ? readLane(packet, lane) : TraceAnswer{};
   }
+}
+
+void EmbreeScene::intersect(std::span<const TraceRequest> requests, std::span<TraceAnswer> answers) const {
+  const Impl& impl = *impl_;
+  QueryContext context{};
+  rtcInitIntersectContext(&context.embree);
+  context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  context.requests = requests.data();
+  context.geometry = &impl.geometry;
+  context.shader = &impl.shader;
+  if (impl.packetWidth == 8)
+    impl.intersectPackets<RTCRayHit8, 8>(requests, answers, [&](const int* valid, RTCRayHit8& packet) {
+      rtcIntersect8(valid, impl.scene, &context.embree, &packet);
+    });
+  else
+    impl.intersectPackets<RTCRayHit4, 4>(requests, answers, [&](const int* valid, RTCRayHit4& packet) {
+      rtcIntersect4(valid, impl.scene, &context.embree, &packet);
+    });
 }
 
 std::string EmbreeScene::describe() const {
   const auto version = rtcGetDeviceProperty(impl_->device, RTC_DEVICE_PROPERTY_VERSION);
-  return fmt::format("Embree {}.{}.{} (Debian build, asserts on), packets of 8, {} threads", version / 10000,
-                     version / 100 % 100, version % 100, core::threadCount());
+  return fmt::format("Embree {}.{}.{} (Debian build, asserts on), packets of {}, {} threads", version / 10000,
+                     version / 100 % 100, version % 100, impl_->packetWidth, core::threadCount());
 }
 
 }  // namespace catoptric::reference

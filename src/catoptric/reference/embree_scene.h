@@ -35,14 +35,15 @@ struct TraceAnswer {
 class EmbreeScene {
  public:
   /// Throws core::Error("embree.*"). Triangles with non-finite or gigantic coordinates are left out.
-  EmbreeScene(const scene::WorldGeometry& geometry, const SurfaceShader& shader);
+  /// packetWidth: 4 or 8 rays at once; 0 = what the processor does best.
+  EmbreeScene(const scene::WorldGeometry& geometry, const SurfaceShader& shader, int packetWidth = 0);
   ~EmbreeScene();
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
   /// Closest hits of a batch; rays near each other in the batch should be near each other in space. Requests
   /// with a non-finite ray are answered with "nothing" (Debian's Embree would abort).
-  void intersect(std::span<const TraceRequest> requests, std::span<TraceAnswer> answers, bool coherent) const;
+  void intersect(std::span<const TraceRequest> requests, std::span<TraceAnswer> answers) const;
 
   [[nodiscard]] std::string describe() const;
 

@@ -31,18 +31,18 @@ inline constexpr double kLargestDerivative = 1e12;
 }
 
 /// Equation 8: derivative of the unit direction of an unnormalised ray direction with derivative `change`.
-[[nodiscard]] inline dvec3 differentiateNormalized(const dvec3& unit, double length, const dvec3& change) {
-  return (change - unit * glm::dot(unit, change)) / length;
+[[nodiscard]] inline dvec3 differentiateNormalized(const dvec3& unit, double inverseLength,
+                                                   const dvec3& change) {
+  return (change - unit * glm::dot(unit, change)) * inverseLength;
 }
 
-/// Equation 10: change of the hit point at distance t on a plane; `normal` need not be unit.
+/// Equation 10: change of the hit point at distance t on a plane; `inverseAcross` is 1 / dot(direction,
+/// normal), where the normal need not be unit.
 [[nodiscard]] inline dvec3 transferToPlane(const dvec3& originChange, const dvec3& directionChange,
-                                           const dvec3& direction, double t, const dvec3& normal) {
+                                           const dvec3& direction, double t, const dvec3& normal,
+                                           double inverseAcross) {
   const dvec3 moved = originChange + t * directionChange;
-  double across = glm::dot(direction, normal);
-  const double smallest = 1e-12 * glm::length(normal);
-  if (std::abs(across) < smallest) across = std::copysign(smallest, across);
-  return limitDerivative(moved - direction * (glm::dot(moved, normal) / across));
+  return limitDerivative(moved - direction * (glm::dot(moved, normal) * inverseAcross));
 }
 
 /// Equation 15: change of the mirrored direction when direction and unit normal change.

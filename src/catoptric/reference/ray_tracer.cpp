@@ -39,6 +39,13 @@ void checkCamera(const scene::CameraFrame& camera) {
                       "eye and target must be finite and apart");
 }
 
+/// Every pixel is written by its tile, so that an image of the right size is left as it is.
+template <class Pixel>
+void resize(core::Image<Pixel>& image, const scene::CameraFrame& camera, bool isWanted) {
+  const int width = isWanted ? camera.widthPx : 0, height = isWanted ? camera.heightPx : 0;
+  if (image.width() != width || image.height() != height) image = core::Image<Pixel>(width, height);
+}
+
 }  // namespace
 
 struct RayTracer::Impl {
@@ -58,12 +65,18 @@ RayTracer::RayTracer(const scene::Scene& scene, const scene::WorldGeometry& geom
 RayTracer::~RayTracer() = default;
 
 TraceResult RayTracer::trace(const scene::CameraFrame& camera, const TraceOptions& options) const {
+  TraceResult result;
+  trace(camera, options, result);
+  return result;
+}
+
+void RayTracer::trace(const scene::CameraFrame& camera, const TraceOptions& options,
+                      TraceResult& result) const {
   checkCamera(camera);
   const auto start = std::chrono::steady_clock::now();
-  TraceResult result;
-  result.radiance = core::ImageRgbaF(camera.widthPx, camera.heightPx, vec4(0, 0, 0, 1));
-  if (options.withSeen) result.seen = core::SeenImage(camera.widthPx, camera.heightPx);
-  if (options.withFootprints) result.footprints = core::FootprintImage(camera.widthPx, camera.heightPx);
+  resize(result.radiance, camera, true);
+  resize(result.seen, camera, options.withSeen);
+  resize(result.footprints, camera, options.withFootprints);
 
   const TracedScene scene{impl_->geometry, impl_->environment, impl_->shader, impl_->embree};
   const int columns = (camera.widthPx + kTileEdgePx - 1) / kTileEdgePx;
@@ -79,7 +92,6 @@ TraceResult RayTracer::trace(const scene::CameraFrame& camera, const TraceOption
   });
   result.rays = rays;
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return result;
 }
 
 std::string RayTracer::describe() const {

@@ -48,6 +48,8 @@ class RayTracer {
 
   /// The same bytes on every run and with any number of threads. Throws core::Error("camera.not_finite").
   [[nodiscard]] TraceResult trace(const scene::CameraFrame& camera, const TraceOptions& options) const;
+  /// The same into a result that may be used again for the next frame: its images keep their memory.
+  void trace(const scene::CameraFrame& camera, const TraceOptions& options, TraceResult& result) const;
 
   /// "Embree 3.13.5 (Debian build, asserts on), ISA ..., N threads"
   [[nodiscard]] std::string describe() const;

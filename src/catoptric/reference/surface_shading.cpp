@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "catoptric/reference/surface_shading.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace catoptric::reference {
@@ -56,6 +57,11 @@ SurfaceShader::SurfaceShader(const scene::Scene& scene, const scene::WorldGeomet
   };
   for (const scene::Material& source : scene.materials) add(source);
   add(defaultMaterial_);
+  for (const scene::Part& part : geometry.parts) {
+    const auto first = geometry.colors.begin() + part.firstVertex;
+    hasColors_.push_back(
+        std::any_of(first, first + part.vertexCount, [](const vec4& c) { return c != vec4(1); }));
+  }
   for (const scene::Light& light : scene.lights) lights_.push_back(makeLight(light));
 }
 
@@ -79,22 +85,27 @@ Hit SurfaceShader::computeHit(const Ray& ray, std::uint32_t triangle, const dvec
       c(geometry_.positions[hit.vertices[2]]);
   const dvec3 e1 = b - a, e2 = c - a, n = glm::cross(e1, e2);
   hit.geometricNormal = n;
-  const double across = glm::dot(ray.direction, n), square = glm::dot(n, n);
+  const double square = glm::dot(n, n), inverseSquare = 1.0 / square;
+  double across = glm::dot(ray.direction, n);
   hit.isFront = across < 0;
   // Gradients of the barycentric coordinates over the plane.
-  const dvec3 gradientB = glm::cross(e2, n) / square, gradientC = glm::cross(n, e1) / square;
+  const dvec3 gradientB = glm::cross(e2, n) * inverseSquare, gradientC = glm::cross(n, e1) * inverseSquare;
   if (across * across > 1e-20 * square) {
     hit.t = glm::dot(a - ray.origin, n) / across;
     hit.position = ray.origin + hit.t * ray.direction;
     hit.barycentric = {glm::dot(hit.position - a, gradientB), glm::dot(hit.position - a, gradientC)};
-  } else {
+  } else {  // seen from its edge
     hit.barycentric = barycentricHint;
     hit.position = a + barycentricHint.x * e1 + barycentricHint.y * e2;
     hit.t = glm::dot(hit.position - ray.origin, ray.direction);
+    across = std::copysign(1e-10 * std::sqrt(square), across);
   }
   const RayDifferential& d = ray.differential;
-  hit.positionChange.dx = transferToPlane(d.origin.dx, d.direction.dx, ray.direction, hit.t, n);
-  hit.positionChange.dy = transferToPlane(d.origin.dy, d.direction.dy, ray.direction, hit.t, n);
+  const double inverseAcross = 1.0 / across;
+  hit.positionChange.dx =
+      transferToPlane(d.origin.dx, d.direction.dx, ray.direction, hit.t, n, inverseAcross);
+  hit.positionChange.dy =
+      transferToPlane(d.origin.dy, d.direction.dy, ray.direction, hit.t, n, inverseAcross);
   const auto toBarycentric = [&](const dvec3& change) {
     return dvec2(glm::dot(change, gradientB), glm::dot(change, gradientC));
   };
@@ -127,7 +138,8 @@ vec4 SurfaceShader::sample(const Slot& slot, const Hit& hit) const {
 }
 
 vec4 SurfaceShader::baseColor(const ShadingMaterial& material, const Hit& hit) const {
-  vec4 base = material.source->baseColor * interpolate(geometry_.colors, hit, weightsOf(hit));
+  vec4 base = material.source->baseColor;
+  if (hasColors_[hit.part]) base *= interpolate(geometry_.colors, hit, weightsOf(hit));
   if (material.baseColor.texture != nullptr) base *= sample(material.baseColor, hit);
   return base;
 }
@@ -178,10 +190,11 @@ ShadingNormal SurfaceShader::computeNormal(const Hit& hit) const {
   const double length = glm::length(sum);
   ShadingNormal result;
   if (length > 1e-6) {
-    result.normal = sum / length;
+    const double inverseLength = 1.0 / length;
+    result.normal = sum * inverseLength;
     const auto change = [&](const dvec2& barycentric) {
       return limitDerivative(
-          differentiateNormalized(result.normal, length, toB * barycentric.x + toC * barycentric.y));
+          differentiateNormalized(result.normal, inverseLength, toB * barycentric.x + toC * barycentric.y));
     };
     result.change = {change(hit.barycentricChange.dx), change(hit.barycentricChange.dy)};
   } else {  // normals that cancel each other
@@ -228,6 +241,11 @@ Shaded SurfaceShader::shade(const Ray& ray, const Hit& hit, const ShadingNormal&
   s.reflectivity = isReflector ? geometry_.reflectors[part.reflector].reflectivity : 0.0f;
   s.clearcoat = isReflector ? geometry_.reflectors[part.reflector].clearcoat : 0.0f;
 
+  if (isReflector) result.mirrorWeight = scene::glsl::mirrorWeight(s);
+  if (s.reflectivity == 1.0f && s.metallic == 1.0f) {  // all of shadeSurface() but the emission is zero then
+    result.radiance = s.emissive;
+    return result;
+  }
   vec3 direct(0);
   for (const auto& light : lights_) direct += scene::glsl::shadeLight(light, s);
   vec3 prefiltered(0);
@@ -235,7 +253,6 @@ Shaded SurfaceShader::shade(const Ray& ray, const Hit& hit, const ShadingNormal&
     prefiltered = samplePrefiltered(environment_, glm::reflect(-s.toViewer, s.normal), s.roughness);
   result.radiance =
       scene::glsl::shadeSurface(s, direct, sampleIrradiance(environment_, s.normal), prefiltered);
-  if (isReflector) result.mirrorWeight = scene::glsl::mirrorWeight(s);
   return result;
 }
 

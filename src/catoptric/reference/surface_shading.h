@@ -94,6 +94,7 @@ class SurfaceShader {
   scene::Material defaultMaterial_;
   std::vector<ShadingMaterial> materials_;  // the scene's and, last, the default one
   std::array<std::vector<std::unique_ptr<SampledTexture>>, 2> textures_;  // as data, as colour
+  std::vector<std::uint8_t> hasColors_;  // of each part: any vertex colour but white
   std::vector<scene::glsl::PunctualLight> lights_;
 };
 

@@ -31,19 +31,16 @@ float tame(float coordinate, scene::Wrap wrap) {
   return coordinate - 2.0f * std::floor(0.5f * coordinate);  // both repeating modes have a period of 2
 }
 
+/// `i` comes from a tamed coordinate: -1 <= i <= 2 size when it repeats. No divisions: this is hot.
 int wrapTexel(int i, int size, scene::Wrap wrap) {
-  switch (wrap) {
-    case scene::Wrap::ClampToEdge:
-      return std::clamp(i, 0, size - 1);
-    case scene::Wrap::MirroredRepeat: {
-      const int period = 2 * size;
-      const int inside = ((i % period) + period) % period;
-      return inside < size ? inside : period - 1 - inside;
-    }
-    case scene::Wrap::Repeat:
-      break;
+  if (wrap == scene::Wrap::ClampToEdge) return std::clamp(i, 0, size - 1);
+  if (wrap == scene::Wrap::MirroredRepeat) {
+    if (i < 0 || i >= 2 * size) return 0;
+    return i < size ? i : 2 * size - 1 - i;
   }
-  return ((i % size) + size) % size;
+  if (i < 0) i += size;
+  while (i >= size) i -= size;
+  return i;
 }
 
 /// Bilinear; the column wraps around, the row is clamped.

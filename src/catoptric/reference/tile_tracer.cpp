@@ -48,7 +48,11 @@ ivec2 alongZCurve(int i) {
 
 TileTracer::TileTracer(const TracedScene& scene, const scene::CameraFrame& camera,
                        const TraceOptions& options, TraceResult& result)
-    : scene_(scene), camera_(camera), options_(options), result_(result) {
+    : scene_(scene),
+      camera_(camera),
+      options_(options),
+      result_(result),
+      sampleWeight_(1.0f / float(std::max(options.samples, 1))) {
   constexpr std::size_t kPaths = kTileEdgePx * kTileEdgePx;
   paths_.reserve(kPaths);
   requests_.resize(kPaths);
@@ -62,19 +66,27 @@ void TileTracer::startPaths(int x0, int y0, const dvec2& samplePosition) {
     const ivec2 pixel = ivec2(x0, y0) + alongZCurve(i);
     if (pixel.x >= camera_.widthPx || pixel.y >= camera_.heightPx) continue;
     const dvec3 d = camera_.rayDirection(pixel.x + samplePosition.x, pixel.y + samplePosition.y);
-    const double length = glm::length(d);
+    const double inverseLength = 1.0 / glm::length(d);
     Path& path = paths_.emplace_back();
     path.x = pixel.x;
     path.y = pixel.y;
     path.ray.origin = camera_.eye;
-    path.ray.direction = d / length;
-    path.ray.differential.direction = {differentiateNormalized(path.ray.direction, length, dx),
-                                       differentiateNormalized(path.ray.direction, length, dy)};
+    path.ray.direction = d * inverseLength;
+    path.ray.differential.direction = {differentiateNormalized(path.ray.direction, inverseLength, dx),
+                                       differentiateNormalized(path.ray.direction, inverseLength, dy)};
   }
+}
+
+void TileTracer::clearTile(int x0, int y0) {
+  const int x1 = std::min(x0 + kTileEdgePx, camera_.widthPx),
+            y1 = std::min(y0 + kTileEdgePx, camera_.heightPx);
+  for (int y = y0; y < y1; ++y)
+    std::fill(&result_.radiance.at(x0, y), &result_.radiance.at(x0, y) + (x1 - x0), vec4(0, 0, 0, 1));
 }
 
 void TileTracer::traceTile(int x0, int y0) {
   const int samples = std::max(options_.samples, 1);
+  clearTile(x0, y0);
   for (int sample = 0; sample < samples; ++sample) {
     startPaths(x0, y0, core::samplePosition(sample, samples));
     tracePaths(samples == 1 ? Purpose::Both : Purpose::Radiance);
@@ -92,7 +104,7 @@ void TileTracer::tracePaths(Purpose purpose) {
       const Path& path = paths_[i];
       requests_[i] = {&path.ray, path.tNear, path.ignoredTriangle, path.ignoredPart, path.passedTriangle};
     }
-    scene_.embree.intersect({requests_.data(), count}, {answers_.data(), count}, true);
+    scene_.embree.intersect({requests_.data(), count}, {answers_.data(), count});
     rays_ += count;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < count; ++i)
@@ -208,9 +220,7 @@ void TileTracer::recordSeen(const Path& path, const Hit& hit) {
 }
 
 void TileTracer::addRadiance(const Path& path, const vec3& radiance) {
-  const vec3 weighted = path.throughput * radiance / float(std::max(options_.samples, 1));
-  vec4& pixel = result_.radiance.at(path.x, path.y);
-  pixel += vec4(weighted, 0.0f);
+  result_.radiance.at(path.x, path.y) += vec4(path.throughput * radiance * sampleWeight_, 0.0f);
 }
 
 }  // namespace catoptric::reference

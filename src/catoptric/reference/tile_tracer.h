@@ -45,6 +45,7 @@ class TileTracer {
   };
   enum class Purpose { Radiance, Seen, Both };
 
+  void clearTile(int x0, int y0);
   void startPaths(int x0, int y0, const dvec2& samplePosition);
   void tracePaths(Purpose purpose);
   /// True while the path goes on.
@@ -60,6 +61,7 @@ class TileTracer {
   const scene::CameraFrame& camera_;
   const TraceOptions& options_;
   TraceResult& result_;
+  const float sampleWeight_;
   std::vector<Path> paths_;
   std::vector<TraceRequest> requests_;
   std::vector<TraceAnswer> answers_;
