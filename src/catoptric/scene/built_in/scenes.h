@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// One function and one file for each built-in scene; the table is in scene/built_in_scenes.cpp. Metres, y up.
+#pragma once
+
+#include "catoptric/scene/scene.h"
+
+namespace catoptric::scene::built_in {
+
+[[nodiscard]] Scene makeFourSpheres();
+[[nodiscard]] Scene makeCylinder();
+[[nodiscard]] Scene makeFender();
+[[nodiscard]] Scene makePolyhedraAndSphere();
+[[nodiscard]] Scene makeCheckerBox();
+[[nodiscard]] Scene makeHallOfMirrors();
+[[nodiscard]] Scene makeDriversView();
+
+}  // namespace catoptric::scene::built_in

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "catoptric/scene/glb_writer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <span>
+
+#include "catoptric/core/image_io.h"
+
+namespace catoptric::scene {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kFloat = 5126, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementArrayBuffer = 34963;
+
+/// The double whose shortest decimal is the float's shortest decimal: 0.9f is written as 0.9.
+double number(float value) {
+  return std::stod(fmt::format("{}", value));
+}
+
+Json numbers(std::span<const float> values) {
+  Json array = Json::array();
+  for (float v : values) array.push_back(number(v));
+  return array;
+}
+
+Json vectorJson(const vec3& v) {
+  return numbers(std::span<const float>(&v.x, 3));
+}
+
+bool isOpaque(const core::ImageRgba8& image) {
+  return std::all_of(image.pixels().begin(), image.pixels().end(),
+                     [](const glm::u8vec4& p) { return p.a == 255; });
+}
+
+class GlbBuilder {
+ public:
+  GlbBuilder(const Scene& scene, const GlbOptions& options) : scene_(scene), options_(options) {}
+
+  std::vector<std::byte> build() {
+    document_["asset"] = {{"version", "2.0"}, {"generator", options_.generator}};
+    for (const Texture& texture : scene_.textures) addTexture(texture);
+    for (const Material& material : scene_.materials)
+      document_["materials"].push_back(materialJson(material));
+    for (const Mesh& mesh : scene_.meshes) addMesh(mesh);
+    for (const Instance& instance : scene_.instances) addInstance(instance);
+    for (const Light& light : scene_.lights) addLight(light);
+    for (const Camera& camera : scene_.cameras) addCamera(camera);
+    finishScene();
+    return assemble();
+  }
+
+ private:
+  std::size_t addView(std::span<const std::byte> bytes, int target) {
+    binary_.resize((binary_.size() + 3) / 4 * 4);
+    Json view = {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes.size()}};
+    if (target != 0) view["target"] = target;
+    binary_.insert(binary_.end(), bytes.begin(), bytes.end());
+    document_["bufferViews"].push_back(view);
+    return document_["bufferViews"].size() - 1;
+  }
+
+  template <class Element>
+  std::size_t addAccessor(const std::vector<Element>& values, const char* type, int componentType,
+                          int target) {
+    const std::size_t view = addView(std::as_bytes(std::span<const Element>(values)), target);
+    document_["accessors"].push_back(
+        {{"bufferView", view}, {"componentType", componentType}, {"count", values.size()}, {"type", type}});
+    return document_["accessors"].size() - 1;
+  }
+
+  std::size_t addPositions(const std::vector<vec3>& positions) {
+    const std::size_t accessor = addAccessor(positions, "VEC3", kFloat, kArrayBuffer);
+    vec3 lower = positions.at(0), upper = positions.at(0);
+    for (const vec3& p : positions) {
+      lower = glm::min(lower, p);
+      upper = glm::max(upper, p);
+    }
+    document_["accessors"][accessor]["min"] = {lower.x, lower.y, lower.z};
+    document_["accessors"][accessor]["max"] = {upper.x, upper.y, upper.z};
+    return accessor;
+  }
+
+  std::size_t addSampler(const Texture& texture) {
+    constexpr int kWrap[] = {10497, 33648, 33071};  // in the order of Wrap
+    const int nearest = 9728, linear = 9729, mipmap = 256, linearMipmap = 258;
+    int minify = texture.minifyNearest ? nearest : linear;
+    if (texture.useMipmaps) minify += texture.minifyNearest ? mipmap : linearMipmap;
+    const Json sampler = {{"magFilter", texture.magnifyNearest ? nearest : linear},
+                          {"minFilter", minify},
+                          {"wrapS", kWrap[std::size_t(texture.wrapU)]},
+                          {"wrapT", kWrap[std::size_t(texture.wrapV)]}};
+    Json& samplers = document_["samplers"];
+    for (std::size_t i = 0; i < samplers.size(); ++i)
+      if (samplers[i] == sampler) return i;
+    samplers.push_back(sampler);
+    return samplers.size() - 1;
+  }
+
+  void addTexture(const Texture& texture) {
+    const bool asJpeg = options_.jpegFromPixels > 0 && texture.image.size() >= options_.jpegFromPixels &&
+                        isOpaque(texture.image);
+    const std::vector<std::byte> bytes =
+        asJpeg ? core::encodeJpeg(texture.image, options_.jpegQuality) : core::encodePng(texture.image);
+    Json image = {{"bufferView", addView(bytes, 0)}, {"mimeType", asJpeg ? "image/jpeg" : "image/png"}};
+    if (!texture.name.empty()) image["name"] = texture.name;
+    document_["images"].push_back(image);
+    document_["textures"].push_back(
+        {{"source", document_["images"].size() - 1}, {"sampler", addSampler(texture)}});
+  }
+
+  Json slotJson(const TextureSlot& slot) {
+    Json json = {{"index", slot.texture}};
+    if (slot.uvSet != 0) json["texCoord"] = slot.uvSet;
+    if (slot.uvFromMesh == mat3(1.0f)) return json;
+    // uvFromMesh = move * turn * scale, as the extension composes it.
+    const vec2 columnU(slot.uvFromMesh[0]), columnV(slot.uvFromMesh[1]);
+    const float rotation = std::atan2(-columnU.y, columnU.x);
+    json["extensions"]["KHR_texture_transform"] = {
+        {"offset", {number(slot.uvFromMesh[2].x), number(slot.uvFromMesh[2].y)}},
+        {"rotation", number(rotation == 0.0f ? 0.0f : rotation)},
+        {"scale", {number(glm::length(columnU)), number(glm::length(columnV))}}};
+    used_.insert("KHR_texture_transform");
+    return json;
+  }
+
+  void setExtension(Json& json, const char* name, Json value) {
+    json["extensions"][name] = std::move(value);
+    used_.insert(name);
+  }
+
+  Json hintJson(const ReflectorHint& hint) {
+    Json json;
+    if (hint.reflector) json["reflector"] = *hint.reflector;
+    if (hint.shape) json["shape"] = *hint.shape;
+    if (hint.reflectivity) json["reflectivity"] = number(*hint.reflectivity);
+    if (hint.shell) json["shell"] = *hint.shell;
+    return json;
+  }
+
+  void setSurface(Json& json, const Material& m) {
+    Json& surface = json["pbrMetallicRoughness"];
+    surface["baseColorFactor"] = numbers(std::span<const float>(&m.baseColor.x, 4));
+    surface["metallicFactor"] = number(m.metallic);
+    surface["roughnessFactor"] = number(m.roughness);
+    if (m.baseColorTexture.texture >= 0) surface["baseColorTexture"] = slotJson(m.baseColorTexture);
+    if (m.metallicRoughnessTexture.texture >= 0)
+      surface["metallicRoughnessTexture"] = slotJson(m.metallicRoughnessTexture);
+    if (m.normalTexture.texture >= 0) {
+      json["normalTexture"] = slotJson(m.normalTexture);
+      json["normalTexture"]["scale"] = number(m.normalScale);
+    }
+    if (m.occlusionTexture.texture >= 0) {
+      json["occlusionTexture"] = slotJson(m.occlusionTexture);
+      json["occlusionTexture"]["strength"] = number(m.occlusionStrength);
+    }
+  }
+
+  void setEmission(Json& json, const Material& m) {
+    if (m.emissiveTexture.texture >= 0) json["emissiveTexture"] = slotJson(m.emissiveTexture);
+    if (m.emissive == vec3(0.0f)) return;
+    const float strength = std::max({m.emissive.x, m.emissive.y, m.emissive.z, 1.0f});
+    json["emissiveFactor"] = vectorJson(m.emissive / strength);
+    if (strength > 1)
+      setExtension(json, "KHR_materials_emissive_strength", {{"emissiveStrength", number(strength)}});
+  }
+
+  Json materialJson(const Material& m) {
+    Json json;
+    if (!m.name.empty()) json["name"] = m.name;
+    setSurface(json, m);
+    setEmission(json, m);
+    if (m.alphaMode != AlphaMode::Opaque)
+      json["alphaMode"] = m.alphaMode == AlphaMode::Mask ? "MASK" : "BLEND";
+    if (m.alphaMode == AlphaMode::Mask) json["alphaCutoff"] = number(m.alphaCutoff);
+    if (m.doubleSided) json["doubleSided"] = true;
+    if (m.unlit) setExtension(json, "KHR_materials_unlit", Json::object());
+    if (m.ior != 1.5f) setExtension(json, "KHR_materials_ior", {{"ior", number(m.ior)}});
+    if (m.specular != 1.0f || m.specularColor != vec3(1.0f))
+      setExtension(
+          json, "KHR_materials_specular",
+          {{"specularFactor", number(m.specular)}, {"specularColorFactor", vectorJson(m.specularColor)}});
+    if (m.clearcoat > 0)
+      setExtension(json, "KHR_materials_clearcoat",
+                   {{"clearcoatFactor", number(m.clearcoat)},
+                    {"clearcoatRoughnessFactor", number(m.clearcoatRoughness)}});
+    const Json hint = hintJson(m.hint);
+    if (!hint.is_null()) json["extras"]["catoptric"] = hint;
+    return json;
+  }
+
+  Json primitiveJson(const MeshPrimitive& primitive) {
+    assert(!primitive.positions.empty() && !primitive.indices.empty());
+    Json json;
+    Json& attributes = json["attributes"];
+    const auto addAttribute = [&](const char* name, const auto& values, const char* type) {
+      if (values.empty()) return;
+      assert(values.size() == primitive.positions.size());
+      attributes[name] = addAccessor(values, type, kFloat, kArrayBuffer);
+    };
+    attributes["POSITION"] = addPositions(primitive.positions);
+    addAttribute("NORMAL", primitive.normals, "VEC3");
+    addAttribute("TANGENT", primitive.tangents, "VEC4");
+    addAttribute("TEXCOORD_0", primitive.uv[0], "VEC2");
+    addAttribute("TEXCOORD_1", primitive.uv[1], "VEC2");
+    addAttribute("COLOR_0", primitive.colors, "VEC4");
+    json["indices"] = addAccessor(primitive.indices, "SCALAR", kUnsignedInt, kElementArrayBuffer);
+    if (primitive.material >= 0) json["material"] = primitive.material;
+    return json;
+  }
+
+  void addMesh(const Mesh& mesh) {
+    Json json;
+    if (!mesh.name.empty()) json["name"] = mesh.name;
+    for (const MeshPrimitive& primitive : mesh.primitives)
+      json["primitives"].push_back(primitiveJson(primitive));
+    document_["meshes"].push_back(json);
+  }
+
+  void addNode(Json node, const dmat4& worldFromNode) {
+    if (worldFromNode != dmat4(1.0)) {
+      Json matrix = Json::array();
+      for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row) {
+          const float value = float(worldFromNode[column][row]);
+          matrix.push_back(number(value == 0.0f ? 0.0f : value));  // no "-0.0"
+        }
+      node["matrix"] = matrix;
+    }
+    document_["nodes"].push_back(node);
+  }
+
+  void addInstance(const Instance& instance) {
+    Json node = {{"mesh", instance.mesh}};
+    if (!instance.name.empty()) node["name"] = instance.name;
+    const Json hint = hintJson(instance.hint);
+    if (!hint.is_null()) node["extras"]["catoptric"] = hint;
+    addNode(std::move(node), instance.worldFromMesh);
+  }
+
+  void addLight(const Light& light) {
+    constexpr const char* kTypes[] = {"directional", "point", "spot"};  // in the order of LightType
+    const float intensity = std::max({light.color.x, light.color.y, light.color.z, 1e-6f});
+    Json json = {{"type", kTypes[std::size_t(light.type)]},
+                 {"color", vectorJson(light.color / intensity)},
+                 {"intensity", number(intensity)}};
+    if (light.range > 0 && light.type != LightType::Directional) json["range"] = number(light.range);
+    if (light.type == LightType::Spot)
+      json["spot"] = {{"innerConeAngle", number(light.innerConeRadians)},
+                      {"outerConeAngle", number(light.outerConeRadians)}};
+    used_.insert("KHR_lights_punctual");
+    Json& lights = document_["extensions"]["KHR_lights_punctual"]["lights"];
+    lights.push_back(json);
+    const std::string name = fmt::format("light {}", lights.size() - 1);
+    const Json node = {{"name", name},
+                       {"extensions", {{"KHR_lights_punctual", {{"light", lights.size() - 1}}}}}};
+    const dvec3 direction = glm::normalize(dvec3(light.direction));
+    const dvec3 up = std::abs(direction.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0);
+    const dvec3 position = light.type == LightType::Directional ? dvec3(0) : dvec3(light.position);
+    addNode(node, glm::inverse(glm::lookAt(position, position + direction, up)));
+  }
+
+  void addCamera(const Camera& camera) {
+    document_["cameras"].push_back(
+        {{"type", "perspective"},
+         {"name", camera.name},
+         {"perspective", {{"yfov", number(float(camera.fovYRadians))}, {"znear", 0.01}}}});
+    const Json node = {{"name", camera.name}, {"camera", document_["cameras"].size() - 1}};
+    addNode(node, glm::inverse(glm::lookAt(camera.eye, camera.target, camera.up)));
+  }
+
+  void finishScene() {
+    Json root;
+    if (!scene_.name.empty()) root["name"] = scene_.name;
+    for (std::size_t i = 0; i < document_["nodes"].size(); ++i) root["nodes"].push_back(i);
+    document_["scenes"] = Json::array({root});
+    document_["scene"] = 0;
+    for (const std::string& name : used_) document_["extensionsUsed"].push_back(name);
+    binary_.resize((binary_.size() + 3) / 4 * 4);
+    document_["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
+  }
+
+  std::vector<std::byte> assemble() const {
+    std::string text = document_.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    const std::size_t total = 12 + 8 + text.size() + 8 + binary_.size();
+    std::vector<std::byte> file;
+    file.reserve(total);
+    const auto addWord = [&](std::uint32_t word) {  // little-endian on every machine
+      for (int shift = 0; shift < 32; shift += 8) file.push_back(std::byte((word >> shift) & 0xff));
+    };
+    addWord(0x46546C67);  // "glTF"
+    addWord(2);
+    addWord(std::uint32_t(total));
+    addWord(std::uint32_t(text.size()));
+    addWord(0x4E4F534A);  // "JSON"
+    const auto textBytes = std::as_bytes(std::span<const char>(text));
+    file.insert(file.end(), textBytes.begin(), textBytes.end());
+    addWord(std::uint32_t(binary_.size()));
+    addWord(0x004E4942);  // "BIN"
+    file.insert(file.end(), binary_.begin(), binary_.end());
+    return file;
+  }
+
+  const Scene& scene_;
+  const GlbOptions& options_;
+  Json document_;
+  std::vector<std::byte> binary_;
+  std::set<std::string> used_;
+};
+
+}  // namespace
+
+std::vector<std::byte> makeGlb(const Scene& scene, const GlbOptions& options) {
+  return GlbBuilder(scene, options).build();
+}
+
+}  // namespace catoptric::scene
