@@ -43,26 +43,61 @@ std::span<const std::byte> checkHeader(Context& context, std::span<const std::by
   return bytes.first(length);
 }
 
-/// Depth, duplicate keys and memory, watched while the parser runs.
-class JsonGuard {
+/// Looks through the text before a document is built from it: depth, duplicate keys, memory. (A parser
+/// callback could do this in one pass, but nlohmann's then searches the whole parent array at the end of
+/// every object.)
+class JsonGuard final : public nlohmann::json_sax<Json> {
  public:
   explicit JsonGuard(Context& context) : context_(context) {}
 
-  bool operator()(int depth, Json::parse_event_t event, Json& parsed) {
-    context_.charge(1, kBytesPerJsonValue);
-    if (depth > kMaxJsonDepth)
-      context_.fail("gltf.json", fmt::format("JSON is nested more than {} levels deep", kMaxJsonDepth));
-    if (event == Json::parse_event_t::object_start) keys_.emplace_back();
-    if (event == Json::parse_event_t::object_end) keys_.pop_back();
-    if (event == Json::parse_event_t::key &&
-        !keys_.back().insert(parsed.get_ref<const std::string&>()).second)
-      context_.fail("gltf.json", fmt::format("a JSON object has the key \"{}\" twice",
-                                             printable(parsed.get_ref<const std::string&>())));
+  bool null() override { return countValue(); }
+  bool boolean(bool) override { return countValue(); }
+  bool number_integer(number_integer_t) override { return countValue(); }
+  bool number_unsigned(number_unsigned_t) override { return countValue(); }
+  bool number_float(number_float_t, const string_t&) override { return countValue(); }
+  bool string(string_t&) override { return countValue(); }
+  bool binary(binary_t&) override { return countValue(); }
+  bool start_object(std::size_t) override {
+    keys_.emplace_back();
+    return enter();
+  }
+  bool end_object() override {
+    keys_.pop_back();
+    --depth_;
     return true;
+  }
+  bool start_array(std::size_t) override { return enter(); }
+  bool end_array() override {
+    --depth_;
+    return true;
+  }
+  bool key(string_t& name) override {
+    if (!keys_.back().insert(name).second)
+      context_.fail("gltf.json", fmt::format("a JSON object has the key \"{}\" twice", printable(name)));
+    return countValue();
+  }
+  bool parse_error(std::size_t byte, const std::string&, const Json::exception& error) override {
+    // Codes 101 to 199 are errors of the syntax; 406 is a number beyond the range of double.
+    if (error.id >= 400)
+      context_.fail("gltf.json", fmt::format("a number near byte {} is too large to be represented", byte));
+    context_.fail(
+        "gltf.json",
+        fmt::format("not valid JSON near byte {}; the file is damaged or is not a glTF file", byte));
   }
 
  private:
+  bool countValue() {
+    context_.charge(1, kBytesPerJsonValue);
+    return true;
+  }
+  bool enter() {
+    if (++depth_ > kMaxJsonDepth)
+      context_.fail("gltf.json", fmt::format("JSON is nested more than {} levels deep", kMaxJsonDepth));
+    return countValue();
+  }
+
   Context& context_;
+  int depth_ = 0;
   std::vector<std::set<std::string>> keys_;  ///< Of the objects that are open, outermost first.
 };
 
@@ -114,16 +149,9 @@ Json parseJson(Context& context, std::span<const std::byte> text) {
   if (view.starts_with("\xEF\xBB\xBF"))
     context.warn("the JSON text starts with a byte order mark, which was skipped");
   context.charge(view.size(), 1);
-  try {
-    JsonGuard guard(context);
-    return Json::parse(view.begin(), view.end(), std::ref(guard));
-  } catch (const Json::parse_error& error) {
-    context.fail(
-        "gltf.json",
-        fmt::format("not valid JSON near byte {}; the file is damaged or is not a glTF file", error.byte));
-  } catch (const Json::exception&) {
-    context.fail("gltf.json", "the JSON has a number that is too large to be represented");
-  }
+  JsonGuard guard(context);
+  (void)Json::sax_parse(view.begin(), view.end(), &guard);
+  return Json::parse(view.begin(), view.end());
 }
 
 }  // namespace catoptric::scene::gltf
