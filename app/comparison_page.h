@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page that compare leaves: pictures side by side, error maps, the table. One file that works offline;
+// the pictures lie beside it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "comparison.h"
+
+namespace catoptric::app {
+
+/// `document` is report.json (its "environment" goes to the foot), `command` the line that made it.
+[[nodiscard]] std::string makeComparisonPage(const std::vector<Comparison>& comparisons, const Json& document,
+                                             const std::string& command);
+
+}  // namespace catoptric::app

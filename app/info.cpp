@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// catoptric info SCENE: what is in it, which surfaces are mirrors and why, and how auto would draw each.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "commands.h"
+#include "documents.h"
+#include "option_values.h"
+#include "shared_options.h"
+#include "terminal.h"
+
+namespace catoptric::app {
+namespace {
+
+struct Options {
+  std::string source;
+  SceneOptions scene;
+  OutputOptions output;
+};
+
+std::string shapeName(scene::ReflectorShape shape) {
+  switch (shape) {
+    case scene::ReflectorShape::Plane:
+      return "plane";
+    case scene::ReflectorShape::Sphere:
+      return "sphere";
+    case scene::ReflectorShape::Cylinder:
+      return "cylinder";
+    case scene::ReflectorShape::Cone:
+      return "cone";
+    case scene::ReflectorShape::Mesh:
+      return "mesh";
+  }
+  return "mesh";
+}
+
+std::string methodText(const renderer::MethodChoice& choice) {
+  std::string text(renderer::methodName(choice.method));
+  const bool isCurved = choice.method == renderer::Method::Virtual && choice.solver != renderer::Solver::Auto;
+  return isCurved ? text + "/" + std::string(renderer::solverName(choice.solver)) : text;
+}
+
+Json describeReflector(const LoadedScene& loaded, const scene::Reflector& reflector) {
+  const renderer::MethodChoice choice = renderer::Renderer::chooseMethod(reflector);
+  const bool hasMaterial =
+      reflector.material >= 0 && std::size_t(reflector.material) < loaded.scene.materials.size();
+  return {{"name", reflector.name},
+          {"shape", shapeName(reflector.shape)},
+          {"fit_error", reflector.fitError},
+          {"convex", reflector.isConvex},
+          {"double_sided", reflector.doubleSided},
+          {"triangles", loaded.geometry.parts.at(reflector.part).indexCount / 3},
+          {"centre", makeJson(reflector.centre)},
+          {"radius", reflector.radius},
+          {"area", reflector.areaWorld},
+          {"material", hasMaterial ? loaded.scene.materials[std::size_t(reflector.material)].name : ""},
+          {"reason", reflector.reason},
+          {"auto",
+           {{"method", std::string(renderer::methodName(choice.method))},
+            {"solver", std::string(renderer::solverName(choice.solver))},
+            {"reason", choice.reason}}}};
+}
+
+Json describeScene(const LoadedScene& loaded) {
+  const scene::Scene& scene = loaded.scene;
+  const scene::WorldGeometry& geometry = loaded.geometry;
+  Json json{{"name", loaded.name},
+            {"source", loaded.source},
+            {"built_in", loaded.isBuiltIn},
+            {"scene", scene.name},
+            {"objects", scene.instances.size()},
+            {"meshes", scene.meshes.size()},
+            {"materials", scene.materials.size()},
+            {"textures", scene.textures.size()},
+            {"lights", scene.lights.size()},
+            {"triangles", geometry.triangleCount()},
+            {"vertices", geometry.positions.size()},
+            {"dropped_triangles", geometry.droppedTriangles}};
+  if (!geometry.bounds.isEmpty())
+    json["bounds"] = {{"lower", makeJson(geometry.bounds.lower)}, {"upper", makeJson(geometry.bounds.upper)}};
+  json["cameras"] = Json::array();
+  for (const scene::Camera& camera : scene.cameras) json["cameras"].push_back(makeJson(camera));
+  json["reflectors"] = Json::array();
+  for (const scene::Reflector& reflector : geometry.reflectors)
+    json["reflectors"].push_back(describeReflector(loaded, reflector));
+  json["warnings"] = scene.warnings;
+  return json;
+}
+
+std::string makeSummary(const LoadedScene& loaded) {
+  const scene::Scene& scene = loaded.scene;
+  const scene::WorldGeometry& geometry = loaded.geometry;
+  std::string text =
+      fmt::format("{}{}\n", loaded.source,
+                  scene.name.empty() ? "" : "  scene \"" + withoutControlCharacters(scene.name) + "\"");
+  text += fmt::format("  {} objects, {} meshes, {} triangles, {} vertices{}\n", scene.instances.size(),
+                      scene.meshes.size(), geometry.triangleCount(), geometry.positions.size(),
+                      geometry.droppedTriangles == 0
+                          ? ""
+                          : fmt::format(" ({} degenerate triangles dropped)", geometry.droppedTriangles));
+  text += fmt::format("  {} materials, {} textures, {} lights\n", scene.materials.size(),
+                      scene.textures.size(), scene.lights.size());
+  if (!geometry.bounds.isEmpty()) {
+    const dvec3 low = geometry.bounds.lower, high = geometry.bounds.upper;
+    text += fmt::format("  from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) m\n", low.x, low.y,
+                        low.z, high.x, high.y, high.z);
+  }
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i)
+    text += fmt::format("  camera {} \"{}\", {:.1f} degrees\n", i,
+                        withoutControlCharacters(scene.cameras[i].name),
+                        glm::degrees(scene.cameras[i].fovYRadians));
+  return text;
+}
+
+std::string makeReflectorTable(const LoadedScene& loaded) {
+  const auto& reflectors = loaded.geometry.reflectors;
+  if (reflectors.empty())
+    return "\nno reflectors: no material is a mirror (metallic >= 0.9 and roughness <= 0.05, clearcoat, or "
+           "extras.catoptric)\n";
+  std::vector<std::vector<std::string>> rows{
+      {"reflector", "shape", "fit error", "convex", "radius m", "area m2", "triangles", "auto picks"}};
+  std::string reasons;
+  for (const scene::Reflector& reflector : reflectors) {
+    const renderer::MethodChoice choice = renderer::Renderer::chooseMethod(reflector);
+    rows.push_back({reflector.name, shapeName(reflector.shape), fmt::format("{:.2g}", reflector.fitError),
+                    reflector.isConvex ? "yes" : "no", fmt::format("{:.4g}", reflector.radius),
+                    fmt::format("{:.4g}", reflector.areaWorld),
+                    std::to_string(loaded.geometry.parts.at(reflector.part).indexCount / 3),
+                    methodText(choice)});
+    reasons += fmt::format("{}: a mirror by {}; {} because {}\n", withoutControlCharacters(reflector.name),
+                           reflector.reason, methodText(choice), choice.reason);
+  }
+  return "\n" + formatTable(rows, usesColour(stdout)) + "\n" + reasons;
+}
+
+int run(const Options& options) {
+  applyOutput(options.output);
+  const auto loaded = loadScene(options.source, options.scene);
+  if (!options.output.json.empty()) {
+    Json document = makeDocument("info", nullptr);
+    document.update(describeScene(*loaded));
+    writeDocument(options.output.json, document);
+  }
+  if (options.output.json != "-") printData(makeSummary(*loaded) + makeReflectorTable(*loaded));
+  return 0;
+}
+
+}  // namespace
+
+Command makeInfoCommand() {
+  const auto options = std::make_shared<Options>();
+  return {.name = "info",
+          .summary = "Say what is in a scene: its mirrors, their shape, how each would be drawn and why",
+          .examples =
+              "  catoptric info scene.glb\n"
+              "  catoptric info drivers-view --json -\n"
+              "  catoptric info scene.glb --reflector-roughness 0.1\n",
+          .declare =
+              [options](Arguments& arguments) {
+                arguments.positional("SCENE", "A .gltf or .glb file, '-', or a built-in scene",
+                                     Arguments::Count::ExactlyOne, setText(options->source));
+                declareScene(arguments, options->scene);
+                declareOutput(arguments, options->output);
+              },
+          .run = [options](const std::vector<std::string>&) { return run(*options); }};
+}
+
+}  // namespace catoptric::app

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "method_variant.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "catoptric/core/progress.h"
+#include "option_values.h"
+#include "suggest.h"
+
+namespace catoptric::app {
+namespace {
+
+using renderer::Method;
+using renderer::Solver;
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const auto rank = std::size_t(std::ceil(share * double(values.size())));
+  return values[std::max<std::size_t>(rank, 1) - 1];
+}
+
+FrameTimes summarise(const std::vector<renderer::FrameTimings>& frames,
+                     const renderer::FrameCounters& counters) {
+  const auto collect = [&](double renderer::FrameTimings::*member) {
+    std::vector<double> values;
+    for (const renderer::FrameTimings& frame : frames) values.push_back(frame.*member);
+    return values;
+  };
+  FrameTimes times;
+  times.frames = int(frames.size());
+  times.medianMs = quantile(collect(&renderer::FrameTimings::totalMs), 0.5);
+  times.p95Ms = quantile(collect(&renderer::FrameTimings::totalMs), 0.95);
+  times.primaryMs = quantile(collect(&renderer::FrameTimings::primaryMs), 0.5);
+  times.reflectionMs = quantile(collect(&renderer::FrameTimings::reflectionMs), 0.5);
+  const double verticesMs = quantile(collect(&renderer::FrameTimings::virtualVerticesMs), 0.5);
+  if (verticesMs > 0) times.virtualVerticesPerS = double(counters.virtualVertices) / (0.001 * verticesMs);
+  if (times.medianMs > 0) times.raysPerS = double(counters.rays) / (0.001 * times.medianMs);
+  times.counters = counters;
+  return times;
+}
+
+}  // namespace
+
+const std::vector<MethodVariant>& methodVariants() {
+  static const std::vector<MethodVariant> variants{
+      {"none", "mirrors show the surroundings only", Method::None, Solver::Auto, true},
+      {"environment-plain", "environment map of each mirror", Method::Environment, Solver::Auto, false},
+      {"environment", "environment map, corrected by the box of the room", Method::Environment, Solver::Auto,
+       true},
+      {"virtual-explosion", "virtual objects, explosion maps as published", Method::Virtual,
+       Solver::Explosion, true},
+      {"virtual-refined", "virtual objects, reflection points polished", Method::Virtual, Solver::Refined,
+       true},
+      {"raytrace", "ray-traced truth", Method::RayTrace, Solver::Auto, true}};
+  return variants;
+}
+
+std::string listMethodNames() {
+  std::string names;
+  for (const MethodVariant& variant : methodVariants()) names += (names.empty() ? "" : ", ") + variant.name;
+  return names;
+}
+
+std::vector<MethodVariant> parseMethodList(const std::string& text) {
+  std::vector<MethodVariant> chosen;
+  std::vector<std::string> names;
+  for (const MethodVariant& variant : methodVariants()) names.push_back(variant.name);
+  for (const std::string& word : splitList(text)) {
+    const auto at = std::find(names.begin(), names.end(), word);
+    if (at == names.end())
+      throw UsageError("--methods: there is no '" + word + "'",
+                       makeSuggestion(word, names, "there are " + listMethodNames()));
+    for (const MethodVariant& variant : chosen)
+      if (variant.name == word) throw UsageError("--methods: '" + word + "' is named twice");
+    chosen.push_back(methodVariants()[std::size_t(at - names.begin())]);
+  }
+  return chosen;
+}
+
+renderer::FrameOptions withMethod(renderer::FrameOptions options, const MethodVariant& variant) {
+  options.method = variant.method;
+  options.solver = variant.solver;
+  options.boxCorrected = variant.boxCorrected;
+  return options;
+}
+
+std::vector<FrameTimes> timeInTurn(renderer::Renderer& renderer, const scene::Camera& camera,
+                                   const renderer::FrameOptions& options,
+                                   const std::vector<MethodVariant>& variants, int repeats,
+                                   core::Progress& progress) {
+  std::vector<std::vector<renderer::FrameTimings>> frames(variants.size());
+  std::vector<renderer::FrameCounters> counters(variants.size());
+  for (int round = 0; round < repeats; ++round)
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+      renderer::FrameOptions frameOptions = withMethod(options, variants[i]);
+      frameOptions.withSeen = false;
+      const renderer::Frame frame = renderer.render(camera, frameOptions);
+      frames[i].push_back(frame.timings);
+      counters[i] = frame.counters;
+      progress.advance();
+    }
+  std::vector<FrameTimes> times;
+  for (std::size_t i = 0; i < variants.size(); ++i) times.push_back(summarise(frames[i], counters[i]));
+  return times;
+}
+
+}  // namespace catoptric::app

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ways of drawing that compare and bench put side by side, each under one name.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "arguments.h"
+#include "catoptric/renderer/frame.h"
+
+namespace catoptric::core {
+class Progress;
+}
+
+namespace catoptric::app {
+
+struct MethodVariant {
+  std::string name;  ///< "environment-plain", "virtual-refined", ...
+  std::string description;
+  renderer::Method method = renderer::Method::Auto;
+  renderer::Solver solver = renderer::Solver::Auto;
+  bool boxCorrected = true;
+};
+
+/// Slowest-looking last: none, environment-plain, environment, virtual-explosion, virtual-refined, raytrace.
+[[nodiscard]] const std::vector<MethodVariant>& methodVariants();
+
+/// --methods A,B,C. Throws UsageError for a name that is not there or is there twice.
+[[nodiscard]] std::vector<MethodVariant> parseMethodList(const std::string& text);
+[[nodiscard]] std::string listMethodNames();
+
+[[nodiscard]] renderer::FrameOptions withMethod(renderer::FrameOptions options, const MethodVariant& variant);
+
+/// Many frames of one variant.
+struct FrameTimes {
+  int frames = 0;
+  double medianMs = 0, p95Ms = 0;                ///< of the whole frame
+  double primaryMs = 0, reflectionMs = 0;        ///< medians of its parts
+  double virtualVerticesPerS = 0, raysPerS = 0;  ///< 0 where the variant has none; from the medians
+  renderer::FrameCounters counters;
+};
+
+/// Times the variants in turn, A B C A B C, so that a slow moment of the machine falls on all. The caller has
+/// rendered each once before (warm-up).
+[[nodiscard]] std::vector<FrameTimes> timeInTurn(renderer::Renderer& renderer, const scene::Camera& camera,
+                                                 const renderer::FrameOptions& options,
+                                                 const std::vector<MethodVariant>& variants, int repeats,
+                                                 core::Progress& progress);
+
+}  // namespace catoptric::app

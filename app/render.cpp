@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// catoptric render SCENE -o FILE: one picture by one method.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "catoptric/core/file.h"
+#include "commands.h"
+#include "documents.h"
+#include "option_values.h"
+#include "pictures.h"
+#include "shared_options.h"
+#include "terminal.h"
+
+namespace catoptric::app {
+namespace {
+
+struct Options {
+  std::string source, picture, aov;
+  bool plainMap = false;
+  SceneOptions scene;
+  CameraOptions camera;
+  PictureOptions frame;
+  OutputOptions output;
+};
+
+/// What the result of the command line is, before any work is done on it.
+PictureFormat checkOutputs(const Options& options) {
+  if (options.picture.empty() && options.aov.empty())
+    throw UsageError("where to write to is missing", "add -o picture.png");
+  if (!options.aov.empty() &&
+      (options.aov == "-" || findPictureFormat("--aov", options.aov) != PictureFormat::Exr))
+    throw UsageError("--aov: '" + options.aov + "' is no .exr file");
+  if (options.picture == "-" && options.output.json == "-")
+    throw UsageError("the picture and --json cannot both go to standard output");
+  return options.picture.empty() ? PictureFormat::Png : findPictureFormat("-o", options.picture);
+}
+
+Json makeFrameJson(const renderer::FrameOptions& options, const renderer::Frame& frame) {
+  const renderer::FrameTimings& times = frame.timings;
+  const renderer::FrameCounters& counters = frame.counters;
+  return {{"method", std::string(renderer::methodName(options.method))},
+          {"solver", std::string(renderer::solverName(options.solver))},
+          {"box_corrected", options.boxCorrected},
+          {"width", options.widthPx},
+          {"height", options.heightPx},
+          {"bounces", options.bounces},
+          {"samples", options.samples},
+          {"timings",
+           {{"total_ms", times.totalMs},
+            {"primary_ms", times.primaryMs},
+            {"reflection_ms", times.reflectionMs},
+            {"virtual_vertices_ms", times.virtualVerticesMs}}},
+          {"counters",
+           {{"virtual_vertices", counters.virtualVertices},
+            {"virtual_triangles", counters.virtualTriangles},
+            {"reflectors_drawn", counters.reflectorsDrawn},
+            {"reflectors_culled", counters.reflectorsCulled},
+            {"rays", counters.rays}}}};
+}
+
+int run(Options options) {
+  applyOutput(options.output);
+  const PictureFormat format = checkOutputs(options);
+  renderer::FrameOptions& frameOptions = options.frame.frame;
+  frameOptions.boxCorrected = !options.plainMap;
+  frameOptions.withSeen = !options.aov.empty();
+
+  const auto loaded = loadScene(options.source, options.scene);
+  const scene::Camera camera = chooseCamera(*loaded, options.camera);
+  loadEnvironment(*loaded, options.frame.environment);
+  renderer::Renderer renderer(loaded->scene, loaded->geometry, loaded->environment);
+  const renderer::Frame frame = renderer.render(camera, frameOptions);
+
+  if (!options.picture.empty()) {
+    writePicture(options.picture, format, frame.radiance, options.frame.exposure);
+    say(fmt::format("wrote {} ({}x{}, {}, {:.0f} ms)",
+                    options.picture == "-" ? "standard output" : options.picture, frameOptions.widthPx,
+                    frameOptions.heightPx, renderer::methodName(frameOptions.method), frame.timings.totalMs));
+  }
+  if (!options.aov.empty()) {
+    core::writeFileAtomically(options.aov, std::span<const std::byte>(encodeAov(frame)));
+    say("wrote " + options.aov);
+  }
+  if (!options.output.json.empty()) {
+    Json document = makeDocument("render", &renderer);
+    document["scene"] = makeSceneJson(*loaded);
+    document["camera"] = makeJson(camera);
+    document.update(makeFrameJson(frameOptions, frame));
+    document["files"] = Json::object();
+    if (!options.picture.empty()) document["files"]["picture"] = options.picture;
+    if (!options.aov.empty()) document["files"]["aov"] = options.aov;
+    writeDocument(options.output.json, document);
+  }
+  return 0;
+}
+
+}  // namespace
+
+Command makeRenderCommand() {
+  const auto options = std::make_shared<Options>();
+  return {.name = "render",
+          .summary = "Draw one picture",
+          .examples =
+              "  catoptric render scene.glb -o picture.png\n"
+              "  catoptric render four-spheres -o truth.exr --method raytrace --bounces 4\n"
+              "  catoptric render drivers-view -o mirrors.png --size 1280x720 --samples 8\n"
+              "  catoptric render fender -o fender.png --aov seen.exr --json -\n",
+          .declare =
+              [options](Arguments& arguments) {
+                arguments.positional("SCENE", "A .gltf or .glb file, '-', or a built-in scene",
+                                     Arguments::Count::ExactlyOne, setText(options->source));
+                arguments.group("Files");
+                arguments.option("-o,--output", "FILE", "Picture to write: .png, .jpg, .exr, or '-' (PNG)",
+                                 setText(options->picture));
+                arguments.option("--aov", "FILE", "Also write what is seen at each pixel, as .exr",
+                                 setText(options->aov));
+                declareMethod(arguments, options->frame.frame, options->plainMap);
+                declarePicture(arguments, options->frame);
+                declareCamera(arguments, options->camera);
+                declareScene(arguments, options->scene);
+                declareOutput(arguments, options->output);
+              },
+          .run = [options](const std::vector<std::string>&) { return run(*options); }};
+}
+
+}  // namespace catoptric::app

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shared_options.h"
+
+#include <string_view>
+#include <vector>
+
+#include "catoptric/core/parallel.h"
+#include "option_values.h"
+#include "suggest.h"
+#include "terminal.h"
+
+namespace catoptric::app {
+namespace {
+
+constexpr int kMostBounces = 16, kMostSamples = 1024, kMostThreads = 1024;
+
+const std::vector<renderer::Method> kMethods{renderer::Method::Auto, renderer::Method::None,
+                                             renderer::Method::Environment, renderer::Method::Virtual,
+                                             renderer::Method::RayTrace};
+const std::vector<renderer::Solver> kSolvers{renderer::Solver::Auto, renderer::Solver::Explosion,
+                                             renderer::Solver::Refined};
+// Words that are planned (docs/methods.md); they get an answer of their own.
+const std::vector<std::string> kPlannedMethods{"morphing", "zexel"};
+const std::vector<std::string> kPlannedSolvers{"layered", "exact", "analytic", "subdivision"};
+
+/// The value whose name was typed.
+template <class Value>
+Value choose(const std::string& option, const std::string& text, const std::vector<Value>& values,
+             std::string_view (*nameOf)(Value), const std::vector<std::string>& planned) {
+  std::vector<std::string> names;
+  std::string all;
+  for (const Value value : values) {
+    names.emplace_back(nameOf(value));
+    all += (all.empty() ? "" : ", ") + names.back();
+    if (names.back() == text) return value;
+  }
+  for (const std::string& name : planned)
+    if (name == text)
+      throw UsageError(option + ": '" + text + "' is not in this version", "there are " + all);
+  throw UsageError(option + ": there is no '" + text + "'", makeSuggestion(text, names, "there are " + all));
+}
+
+Setter setVector(const std::string& option, std::optional<dvec3>& target) {
+  return [option, &target](const std::string& text) { target = parseVector(option, text); };
+}
+
+Setter setDegrees(const std::string& option, std::optional<double>& target, double least, double most) {
+  return [=, &target](const std::string& text) { target = parseNumber(option, text, least, most); };
+}
+
+}  // namespace
+
+void declareOutput(Arguments& arguments, OutputOptions& options) {
+  arguments.group("Output");
+  arguments.option("--json", "FILE", "Also write a JSON document; '-' writes it to standard output",
+                   setText(options.json));
+  arguments.flag("-q,--quiet", "Print errors only", options.quiet);
+  arguments.flag("-v,--verbose", "Print details", options.verbose);
+  arguments.option("--threads", "N", "Threads to use; default: all",
+                   setInteger("--threads", options.threads, 1, kMostThreads));
+}
+
+void declareScene(Arguments& arguments, SceneOptions& options) {
+  arguments.group("Scene");
+  arguments.option("--scene", "NAME|INDEX", "Which scene of the file; default: its default scene",
+                   [&](const std::string& text) { options.import.sceneName = text; });
+  arguments.repeatable("--reflector", "NAME", "Only this reflector, object or material is a mirror",
+                       [&](const std::string& text) { options.reflectors.only.push_back(text); });
+  arguments.option("--reflector-metallic", "X", "Least metallic factor of a mirror; default 0.9",
+                   [&](const std::string& text) {
+                     options.reflectors.minMetallic = float(parseNumber("--reflector-metallic", text, 0, 1));
+                   });
+  arguments.option("--reflector-roughness", "X", "Largest roughness of a mirror; default 0.05",
+                   [&](const std::string& text) {
+                     options.reflectors.maxRoughness =
+                         float(parseNumber("--reflector-roughness", text, 0, 1));
+                   });
+  arguments.flag("--no-reflectors", "Nothing is a mirror", options.noReflectors);
+  arguments.option(
+      "--max-memory", "BYTES", "Refuse scenes that need more, as in 512M; default 4G",
+      [&](const std::string& text) { options.import.maxMemoryBytes = parseByteCount("--max-memory", text); });
+  arguments.option(
+      "--max-pixels", "N", "Refuse textures with more pixels, as in 16M; default 64M",
+      [&](const std::string& text) { options.import.maxPixels = parseByteCount("--max-pixels", text); });
+}
+
+void declareCamera(Arguments& arguments, CameraOptions& options) {
+  arguments.group("Camera (default: the first of the scene, or one that sees all of it)");
+  arguments.option("--camera", "NAME|INDEX", "A camera of the scene",
+                   [&](const std::string& text) { options.camera = text; });
+  arguments.option("--eye", "X,Y,Z", "Where the eye is, metres", setVector("--eye", options.eye));
+  arguments.option("--target", "X,Y,Z", "Where it looks; default: the middle of the scene",
+                   setVector("--target", options.target));
+  arguments.option("--up", "X,Y,Z", "Which way is up; default 0,1,0", setVector("--up", options.up));
+  arguments.option("--fov", "DEG", "Field of view from top to bottom",
+                   setDegrees("--fov", options.fovDegrees, 0.1, 170));
+  arguments.option("--azimuth", "DEG", "See all from this side; 0 = from +z, 90 = from +x",
+                   setDegrees("--azimuth", options.azimuthDegrees, -360, 360));
+  arguments.option("--elevation", "DEG", "See all from this height; 90 = from above",
+                   setDegrees("--elevation", options.elevationDegrees, -90, 90));
+}
+
+void declarePicture(Arguments& arguments, PictureOptions& options) {
+  renderer::FrameOptions& frame = options.frame;
+  arguments.group("Picture");
+  arguments.option("--size", "WxH", "Pixels; default 960x720", [&](const std::string& text) {
+    const ivec2 size = parseSize("--size", text);
+    frame.widthPx = size.x;
+    frame.heightPx = size.y;
+  });
+  arguments.option("--bounces", "N", "Mirrors in mirrors, to this depth; default 1",
+                   setInteger("--bounces", frame.bounces, 0, kMostBounces));
+  arguments.option("--samples", "N", "Samples a pixel; default 1",
+                   setInteger("--samples", frame.samples, 1, kMostSamples));
+  arguments.option(
+      "--max-error", "PX", "Aim for the tessellation of reflected objects; default 0.5",
+      [&](const std::string& text) { frame.maxErrorPx = parseNumber("--max-error", text, 0.01, 100); });
+  arguments.option("--environment", "FILE", "Surroundings, .hdr or .exr; default: a built-in sky",
+                   setText(options.environment));
+  arguments.option(
+      "--exposure", "X", "Factor on radiance in PNG and JPEG; default 1",
+      [&](const std::string& text) { options.exposure = float(parseNumber("--exposure", text, 1e-6, 1e6)); });
+}
+
+void declareMethod(Arguments& arguments, renderer::FrameOptions& options, bool& plainMap) {
+  arguments.group("Method");
+  arguments.option("--method", "NAME", "auto (default), none, environment, virtual, raytrace",
+                   [&](const std::string& text) {
+                     options.method =
+                         choose("--method", text, kMethods, renderer::methodName, kPlannedMethods);
+                   });
+  arguments.option("--solver", "NAME", "Of the virtual method: auto (default), explosion, refined",
+                   [&](const std::string& text) {
+                     options.solver =
+                         choose("--solver", text, kSolvers, renderer::solverName, kPlannedSolvers);
+                   });
+  arguments.flag("--plain-environment-map", "No parallax correction by the box of the room", plainMap);
+}
+
+void applyOutput(const OutputOptions& options) {
+  if (options.quiet && options.verbose) throw UsageError("--quiet and --verbose exclude each other");
+  setVerbosity(options.quiet ? Verbosity::Quiet : options.verbose ? Verbosity::Verbose : Verbosity::Normal);
+  if (options.threads > 0) core::setThreadCount(options.threads);
+}
+
+}  // namespace catoptric::app

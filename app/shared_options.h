@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Options that several commands share, each with the function that declares it (docs/command-line.md).
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "arguments.h"
+#include "catoptric/renderer/frame.h"
+#include "catoptric/scene/gltf_import.h"
+#include "catoptric/scene/world_geometry.h"
+
+namespace catoptric::app {
+
+struct OutputOptions {
+  std::string json;  ///< --json FILE; "-" is stdout
+  bool quiet = false, verbose = false;
+  int threads = 0;  ///< 0 = all
+};
+
+struct SceneOptions {
+  scene::ImportOptions import;
+  scene::ReflectorOptions reflectors;
+  bool noReflectors = false;  ///< --no-reflectors: no material is a mirror
+};
+
+struct CameraOptions {
+  std::optional<std::string> camera;
+  std::optional<dvec3> eye, target, up;
+  std::optional<double> fovDegrees, azimuthDegrees, elevationDegrees;
+};
+
+struct PictureOptions {
+  renderer::FrameOptions frame;
+  std::string environment;  ///< file; empty = the built-in sky
+  float exposure = 1;
+};
+
+void declareOutput(Arguments& arguments, OutputOptions& options);
+void declareScene(Arguments& arguments, SceneOptions& options);
+void declareCamera(Arguments& arguments, CameraOptions& options);
+/// What is drawn however it is drawn: --size, --bounces, --samples, ...
+void declarePicture(Arguments& arguments, PictureOptions& options);
+/// --method, --solver, --plain-environment-map (FrameOptions::boxCorrected is its opposite).
+void declareMethod(Arguments& arguments, renderer::FrameOptions& options, bool& plainMap);
+
+/// Verbosity and threads; call it first in a command.
+void applyOutput(const OutputOptions& options);
+
+}  // namespace catoptric::app
