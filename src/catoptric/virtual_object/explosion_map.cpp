@@ -24,6 +24,7 @@
 #include <array>
 #include <limits>
 
+#include "catoptric/core/parallel.h"
 #include "catoptric/virtual_object/item_rasterizer.h"
 
 namespace catoptric::virtual_object {
@@ -41,11 +42,11 @@ std::array<std::uint32_t, 3> cornersOf(const ReflectorMesh& mesh, std::size_t t)
 }
 
 /// Step 2.
-void computeVertexCoords(const ReflectorMesh& mesh, const MapScratch& scratch, ExplosionMap& map) {
+void computeVertexCoords(const ReflectorMesh& mesh, const ReflectedRays& rays, ExplosionMap& map) {
   map.coords.resize(mesh.positions().size());
   for (std::size_t v = 0; v < map.coords.size(); ++v) {
     const dvec3 fromCentre = mesh.positions()[v] - map.centre;
-    const dvec3& direction = scratch.directions[v];
+    const dvec3& direction = rays.directions[v];
     const double b = glm::dot(fromCentre, direction);
     const double c = glm::dot(fromCentre, fromCentre) - map.radius * map.radius;
     const double t = -b + std::sqrt(std::max(b * b - c, 0.0));
@@ -65,13 +66,13 @@ UvFromCoords makeUvFromCoords(const dvec2& a, const dvec2& b, const dvec2& c) {
 }
 
 /// Step 3.
-void fillTriangles(const ReflectorMesh& mesh, const MapScratch& scratch, ExplosionMap& map) {
+void fillTriangles(const ReflectorMesh& mesh, const ReflectedRays& rays, ExplosionMap& map) {
   const int n = map.ids.width();
   map.uvFromCoords.resize(mesh.triangles().size());
   for (std::size_t t = mesh.triangles().size(); t-- > 0;) {  // the skirt first: ordinary triangles go on top
+    if (!rays.isMapped[t]) continue;
     const auto v = cornersOf(mesh, t);
     map.uvFromCoords[t] = makeUvFromCoords(map.coords[v[0]], map.coords[v[1]], map.coords[v[2]]);
-    if (!scratch.isMapped[t]) continue;
     rasterizeTriangle(
         {toPixels(map.coords[v[0]], n), toPixels(map.coords[v[1]], n), toPixels(map.coords[v[2]], n)}, n, n,
         [&](int x, int y, const dvec3&) { map.ids.at(x, y) = std::uint32_t(t) * 2; });
@@ -92,7 +93,7 @@ dvec2 findExtensionCentre(const ExplosionMap& map) {
 }
 
 /// Step 4.
-void extendMap(const ReflectorMesh& mesh, const MapScratch& scratch, ExplosionMap& map) {
+void extendMap(const ReflectorMesh& mesh, const ReflectedRays& rays, ExplosionMap& map) {
   const int n = map.ids.width();
   map.extensionCentre = findExtensionCentre(map);
   const auto extend = [&](const dvec2& p) {
@@ -101,10 +102,10 @@ void extendMap(const ReflectorMesh& mesh, const MapScratch& scratch, ExplosionMa
     return length > 1e-9 ? map.extensionCentre + outward * (2.0 * kExtendedRadius / length) : p;
   };
   for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
-    if (!scratch.isMapped[t]) continue;
+    if (!rays.isMapped[t]) continue;
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t neighbour = mesh.triangles()[t].neighbours[k];
-      if (neighbour != kNoNeighbour && scratch.isMapped[neighbour / 4]) continue;
+      if (neighbour != kNoNeighbour && rays.isMapped[neighbour / 4]) continue;
       const dvec2 a = map.coords[mesh.corners()[3 * t + k]],
                   b = map.coords[mesh.corners()[3 * t + (k + 1) % 3]];
       const auto fill = [&](int x, int y, const dvec3&) {
@@ -153,6 +154,29 @@ void completeCircle(MapScratch& scratch, ExplosionMap& map) {
       if (!isInCircle(x, y, n)) ids.at(x, y) = core::kNoId;
 }
 
+/// The point of an extension polygon's base edge on the radius through `coords`.
+SurfacePoint findOnOuterEdge(const ReflectorMesh& mesh, const ExplosionMap& map, std::uint32_t triangle,
+                             const dvec2& coords) {
+  const dvec2 c = map.extensionCentre, direction = coords - c;
+  double bestDistance = 1e300, bestT = 0.5;
+  int bestEdge = 0;
+  for (int k = 0; k < 3; ++k) {
+    const dvec2 a = map.coords[mesh.corners()[3 * triangle + k]];
+    const dvec2 b = map.coords[mesh.corners()[3 * triangle + (k + 1) % 3]];
+    const dvec2 edge = b - a;
+    const double denominator = direction.x * edge.y - direction.y * edge.x;
+    if (std::abs(denominator) < 1e-15) continue;
+    const double along = ((a.y - c.y) * direction.x - (a.x - c.x) * direction.y) / -denominator;
+    const double t = std::clamp(along, 0.0, 1.0);
+    const dvec2 away = a + t * edge - coords;
+    const double distance = glm::dot(away, away);
+    if (distance < bestDistance) bestDistance = distance, bestT = t, bestEdge = k;
+  }
+  if (bestEdge == 0) return {triangle, bestT, 0};
+  if (bestEdge == 1) return {triangle, 1.0 - bestT, bestT};
+  return {triangle, 0, 1.0 - bestT};
+}
+
 }  // namespace
 
 MapFrame makeMapFrame(const dvec3& zDirection) {
@@ -166,36 +190,36 @@ MapFrame makeMapFrame(const dvec3& zDirection) {
 }
 
 // Step 1.
-std::size_t computeReflectedRays(const ReflectorMesh& mesh, const dvec3& eye, MapScratch& scratch) {
-  scratch.isFront.resize(mesh.positions().size());
-  scratch.directions.resize(mesh.positions().size());
+std::size_t computeReflectedRays(const ReflectorMesh& mesh, const dvec3& eye, ReflectedRays& rays) {
+  rays.isFront.resize(mesh.positions().size());
+  rays.directions.resize(mesh.positions().size());
   for (std::size_t v = 0; v < mesh.positions().size(); ++v) {
     const dvec3 toEye = eye - mesh.positions()[v];
     const double length = glm::length(toEye);
     const dvec3 view = length > 0 ? -toEye / length : -mesh.normals()[v];
     const double facing = glm::dot(mesh.normals()[v], view);
-    scratch.isFront[v] = facing <= 0;
-    scratch.directions[v] = facing <= 0 ? core::reflectDirection(view, mesh.normals()[v]) : view;
+    rays.isFront[v] = facing <= 0;
+    rays.directions[v] = facing <= 0 ? core::reflectDirection(view, mesh.normals()[v]) : view;
   }
-  scratch.isMapped.resize(mesh.triangles().size());
+  rays.isMapped.resize(mesh.triangles().size());
   std::size_t frontTriangles = 0;
   for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
     const auto v = cornersOf(mesh, t);
-    scratch.isMapped[t] = scratch.isFront[v[0]] || scratch.isFront[v[1]] || scratch.isFront[v[2]];
-    frontTriangles += scratch.isMapped[t] && t < mesh.ordinaryCount();
+    rays.isMapped[t] = rays.isFront[v[0]] || rays.isFront[v[1]] || rays.isFront[v[2]];
+    frontTriangles += rays.isMapped[t] && t < mesh.ordinaryCount();
   }
   return frontTriangles;
 }
 
-void fillExplosionMap(const ReflectorMesh& mesh, const dvec3& eye, double radius, MapScratch& scratch,
-                      ExplosionMap& map) {
+void fillExplosionMap(const ReflectorMesh& mesh, const dvec3& eye, double radius, const ReflectedRays& rays,
+                      MapScratch& scratch, ExplosionMap& map) {
   map.centre = mesh.centre();
   map.radius = radius;
   map.frame = makeMapFrame(eye - map.centre);
   std::fill(map.ids.pixels().begin(), map.ids.pixels().end(), core::kNoId);
-  computeVertexCoords(mesh, scratch, map);
-  fillTriangles(mesh, scratch, map);
-  extendMap(mesh, scratch, map);
+  computeVertexCoords(mesh, rays, map);
+  fillTriangles(mesh, rays, map);
+  extendMap(mesh, rays, map);
   completeCircle(scratch, map);
 }
 
@@ -228,7 +252,12 @@ void fillHiddenMap(const ReflectorMesh& mesh, const dvec3& eye, MapScratch& scra
     for (const std::uint32_t v : cornersOf(mesh, t))
       lower = glm::min(lower, scratch.coords[v]), upper = glm::max(upper, scratch.coords[v]);
   }
+  map.squaredCosine = 2.0;  // nothing is hidden
   if (lower.x > upper.x) return;
+  const dvec2 farthest = glm::max(glm::abs(lower), glm::abs(upper));
+  const double cosine =
+      1.0 - 2.0 * std::min(glm::dot(farthest, farthest), 1.0);  // the disc's radius is sin(angle / 2)
+  map.squaredCosine = cosine > 0 ? cosine * cosine : 0.0;
   const int n = map.ids.width();
   map.lower = lower;
   map.pixelsPerUnit = double(n) / glm::max(upper - lower, dvec2(1e-9));
@@ -245,6 +274,48 @@ void fillHiddenMap(const ReflectorMesh& mesh, const dvec3& eye, MapScratch& scra
       map.ids.at(x, y) = std::uint32_t(t);
     });
   }
+}
+
+SurfacePoint clampToTriangle(std::uint32_t triangle, double u, double v) {
+  u = std::max(u, 0.0), v = std::max(v, 0.0);
+  const double sum = u + v;
+  if (sum > 1.0) u /= sum, v /= sum;
+  return {triangle, u, v};
+}
+
+MapAnswer lookUpMap(const ReflectorMesh& mesh, const ExplosionMap& map, const dvec2& mapCoords) {
+  std::uint32_t id = map.idAt(mapCoords);
+  for (int k = 1; k <= 4 && id == core::kNoId; ++k)  // a pixel that the circle's rim crosses
+    id = map.idAt(mapCoords * (1.0 - k * 1.0 / map.ids.width()));
+  if (id == core::kNoId) return {};
+  const std::uint32_t triangle = id / 2;
+  if (id & kExtensionBit) return {findOnOuterEdge(mesh, map, triangle, mapCoords), true};
+  const UvFromCoords& f = map.uvFromCoords[triangle];
+  const double u = f.u0 + f.ux * mapCoords.x + f.uy * mapCoords.y;
+  const double v = f.v0 + f.vx * mapCoords.x + f.vy * mapCoords.y;
+  return {{triangle, u, v}, mesh.triangles()[triangle].isSkirt()};
+}
+
+void fillSeedMap(const ReflectorMesh& mesh, const ExplosionMap& nearMap, const ExplosionMap& farMap,
+                 SeedMap& map) {
+  const int n = map.pixels.width();
+  core::parallelFor(std::size_t(n), 16, [&](std::size_t begin, std::size_t end) {
+    for (int y = int(begin); y < int(end); ++y)
+      for (int x = 0; x < n; ++x) {
+        dvec2 coords = (dvec2(x, y) + 0.5) * (2.0 / n) - 1.0;
+        const double r = glm::length(coords);
+        if (r > 1.0 + 2.0 / n) continue;  // no direction leads here
+        if (r > 0.999) coords *= 0.999 / r;
+        const auto look = [&](const ExplosionMap& from, vec3& position, std::uint32_t& triangle) {
+          const SurfacePoint at = lookUpMap(mesh, from, coords).at;
+          const SurfacePoint inside = clampToTriangle(at.triangle, at.u, at.v);
+          triangle = inside.triangle;
+          position = vec3(mesh.triangles()[triangle].position(inside.u, inside.v));
+        };
+        look(nearMap, map.pixels.at(x, y).nearPosition, map.pixels.at(x, y).nearTriangle);
+        look(farMap, map.pixels.at(x, y).farPosition, map.pixels.at(x, y).farTriangle);
+      }
+  });
 }
 
 }  // namespace catoptric::virtual_object

@@ -12,6 +12,7 @@
 #include "catoptric/core/image.h"
 #include "catoptric/core/math.h"
 #include "catoptric/core/seen.h"
+#include "catoptric/virtual_object/reflection_point.h"
 #include "catoptric/virtual_object/reflector_mesh.h"
 
 namespace catoptric::virtual_object {
@@ -65,29 +66,63 @@ struct ExplosionMap {
 struct HiddenMap {
   dvec3 eye{0};
   MapFrame frame;
+  double squaredCosine = 0;  ///< of the half angle of a cone around frame.z that holds everything seen
   dvec2 lower{-1, -1}, pixelsPerUnit{1, 1};  ///< pixel = (coords - lower) * pixelsPerUnit
   core::Image<std::uint32_t> ids;            ///< triangle index, core::kNoId where the reflector is not seen
   core::Image<float> distances;              ///< from the eye
 };
 
-/// Scratch memory, kept from eye to eye.
-struct MapScratch {
+/// What both maps say about a direction, ready for the refined solver: one fetch of 32 bytes.
+struct SeedPixel {
+  vec3 nearPosition{0};
+  std::uint32_t nearTriangle = 0;
+  vec3 farPosition{0};
+  std::uint32_t farTriangle = 0;
+};
+
+struct SeedMap {
+  core::Image<SeedPixel> pixels;
+
+  [[nodiscard]] const SeedPixel& at(const dvec2& mapCoords) const {
+    const int n = pixels.width();
+    const int x = std::clamp(int((mapCoords.x + 1.0) * 0.5 * n), 0, n - 1);
+    const int y = std::clamp(int((mapCoords.y + 1.0) * 0.5 * n), 0, n - 1);
+    return pixels.at(x, y);
+  }
+};
+
+/// The reflected rays of a mesh for one eye, the same for all maps.
+struct ReflectedRays {
   std::vector<std::uint8_t> isFront;   ///< of every welded vertex
-  std::vector<dvec3> directions;       ///< reflected ray of every welded vertex, normals fixed up
-  std::vector<std::uint8_t> isMapped;  ///< of every triangle
+  std::vector<dvec3> directions;       ///< of every welded vertex, back-facing normals fixed up
+  std::vector<std::uint8_t> isMapped;  ///< of every triangle: has a front-facing corner
+};
+
+/// Scratch memory of a map, kept from eye to eye.
+struct MapScratch {
   std::vector<dvec2> coords;
   std::vector<float> distances;
   std::vector<std::uint32_t> queue;
 };
 
-/// The reflected rays of all vertices (1998, fig. 6 steps 3 and 7), the same for both maps. Returns the
-/// number of ordinary triangles with a front-facing corner.
-std::size_t computeReflectedRays(const ReflectorMesh& mesh, const dvec3& eye, MapScratch& scratch);
+/// 1998, fig. 6 steps 3 and 7. Returns the number of ordinary triangles with a front-facing corner.
+std::size_t computeReflectedRays(const ReflectorMesh& mesh, const dvec3& eye, ReflectedRays& rays);
 
-/// Fills a map of the rays in `scratch` (fig. 6 steps 3 to 6). The map's images keep their size.
-void fillExplosionMap(const ReflectorMesh& mesh, const dvec3& eye, double radius, MapScratch& scratch,
-                      ExplosionMap& map);
-
+/// Fig. 6 steps 3 to 6. The map's images keep their size.
+void fillExplosionMap(const ReflectorMesh& mesh, const dvec3& eye, double radius, const ReflectedRays& rays,
+                      MapScratch& scratch, ExplosionMap& map);
 void fillHiddenMap(const ReflectorMesh& mesh, const dvec3& eye, MapScratch& scratch, HiddenMap& map);
+void fillSeedMap(const ReflectorMesh& mesh, const ExplosionMap& nearMap, const ExplosionMap& farMap,
+                 SeedMap& map);
+
+/// What a map says about a direction. `isExtension`: an extension polygon, or the skirt. (u, v) may lie
+/// outside of the triangle (the papers' negative barycentrics).
+struct MapAnswer {
+  SurfacePoint at;
+  bool isExtension = true;
+};
+[[nodiscard]] MapAnswer lookUpMap(const ReflectorMesh& mesh, const ExplosionMap& map, const dvec2& mapCoords);
+
+[[nodiscard]] SurfacePoint clampToTriangle(std::uint32_t triangle, double u, double v);
 
 }  // namespace catoptric::virtual_object

@@ -22,12 +22,13 @@ struct EdgeFunction {
 /// are refused.
 template <class Visit>
 void rasterizeTriangle(const std::array<dvec2, 3>& verticesPx, int width, int height, Visit&& visit) {
-  constexpr std::int64_t kSub = 256;
+  constexpr std::int64_t kSub = 256, kOffset = std::int64_t(1) << 30;
   std::array<std::int64_t, 3> x, y;
   for (int i = 0; i < 3; ++i) {
     if (!(std::abs(verticesPx[i].x) < 1e6) || !(std::abs(verticesPx[i].y) < 1e6)) return;
-    x[i] = std::llround(verticesPx[i].x * double(kSub));
-    y[i] = std::llround(verticesPx[i].y * double(kSub));
+    // Rounds to nearest; an offset and truncation are faster than std::llround, a function call on x86-64.
+    x[i] = std::int64_t(verticesPx[i].x * double(kSub) + (kOffset + 0.5)) - kOffset;
+    y[i] = std::int64_t(verticesPx[i].y * double(kSub) + (kOffset + 0.5)) - kOffset;
   }
   std::int64_t area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
   if (area == 0) return;

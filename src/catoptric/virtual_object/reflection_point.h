@@ -12,12 +12,13 @@
 // triangle goes on in the neighbour, unfolded into its plane; past the outermost edge of the mesh the last
 // triangle is extrapolated.
 //
-// Measure of success: the sine of the angle between h and n. Roots with lambda <= 0 are no reflections (E and
+// Measure of success: the sine of the angle between h and n. Roots with h.n <= 0 are no reflections (E and
 // Q lie on different sides, or both behind the mirror). World space, double. Sources: Hanika et al. 2015 and
 // Zeltner et al. 2020 for the constraint and the choice of roots; Roger & Holzschuch 2006 for J as an
 // extremum of path length.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -33,59 +34,66 @@ struct SurfacePoint {
   double u = 1.0 / 3, v = 1.0 / 3;
 };
 
-/// The mirror law at one point of the mirror.
+/// The mirror law at one point of the mirror. Squares instead of roots, products instead of quotients: this
+/// is the innermost loop.
 struct MirrorLaw {
   dvec3 position, normal;  ///< normal not unit
   dvec3 toEye, toPoint;    ///< unit
   double distanceEye, distancePoint;
-  double lambda;  ///< positive where E and Q lie in front
-  double sine;    ///< residual: of the angle between half vector and normal
-  double across;  ///< |s q|, the merit function of the search, a length
-  double du, dv;  ///< Newton's step
+  double inverseEye, inversePoint, inverseSum;  ///< of the distances and of their sum
+  double nn, hn;                                ///< n.n and h.n; hn > 0 where E and Q lie in front
+  dvec3 h, q;                                   ///< half vector (not unit); q = (n.n) h - (h.n) n
+  double qq;                                    ///< q.q
+
+  /// Square of the sine of the angle between half vector and normal; NaN where h = 0.
+  [[nodiscard]] double squaredSine() const { return qq / (glm::dot(h, h) * nn * nn); }
+  [[nodiscard]] bool isWithin(double sine) const { return qq <= sine * sine * glm::dot(h, h) * nn * nn; }
+  /// Square of |s q| / (n.n), the merit function of the search, a length squared.
+  [[nodiscard]] double squaredMerit() const {
+    const double s = distanceEye * distancePoint * inverseSum;
+    return s * s * qq / (nn * nn);
+  }
 };
 
-/// Evaluates the law and Newton's step. Where the two equations are dependent the step is not finite.
 [[nodiscard]] inline MirrorLaw evaluateMirrorLaw(const MirrorTriangle& t, double u, double v,
                                                  const dvec3& eye, const dvec3& point) {
   MirrorLaw law;
   law.position = t.position(u, v);
   law.normal = t.normal(u, v);
-  const dvec3 n = law.normal;
   const dvec3 toEye = eye - law.position, toPoint = point - law.position;
   const double a = std::sqrt(glm::dot(toEye, toEye)), b = std::sqrt(glm::dot(toPoint, toPoint));
-  const double inverseA = 1.0 / a, inverseB = 1.0 / b;
-  const dvec3 wi = toEye * inverseA, wo = toPoint * inverseB;
-  law.toEye = wi, law.toPoint = wo;
+  const double sum = a + b, inverse = 1.0 / (a * b * sum);
   law.distanceEye = a, law.distancePoint = b;
+  law.inverseEye = b * sum * inverse, law.inversePoint = a * sum * inverse, law.inverseSum = a * b * inverse;
+  law.toEye = toEye * law.inverseEye, law.toPoint = toPoint * law.inversePoint;
+  law.h = law.toEye + law.toPoint;
+  law.nn = glm::dot(law.normal, law.normal);
+  law.hn = glm::dot(law.h, law.normal);
+  law.q = law.nn * law.h - law.hn * law.normal;
+  law.qq = glm::dot(law.q, law.q);
+  return law;
+}
 
-  const dvec3 h = wi + wo;
-  const double inverseNn = 1.0 / glm::dot(n, n);
-  const double lambda = glm::dot(h, n) * inverseNn;
-  const dvec3 q = h - lambda * n;
-  const double qq = glm::dot(q, q), hh = glm::dot(h, h);
-  const double inverseSum = 1.0 / (a + b), s = a * b * inverseSum;
-  law.lambda = lambda;
-  law.sine = std::sqrt(qq / hh);
-  law.across = s * std::sqrt(qq);
-
-  // Derivatives along an edge e with normal change m: dh = -(e - wi(wi.e))/a - (e - wo(wo.e))/b.
-  const double inverseAPlusB = inverseA + inverseB, ba = b * inverseA * inverseSum,
-               ab = a * inverseB * inverseSum;
+/// Newton's step (du, dv). Not finite where the two equations are dependent.
+[[nodiscard]] inline dvec2 computeNewtonStep(const MirrorTriangle& t, const MirrorLaw& law) {
+  const dvec3 n = law.normal, wi = law.toEye, wo = law.toPoint;
+  const double inverseBoth = law.inverseEye + law.inversePoint;
+  const double eyeShare = law.distancePoint * law.inverseEye * law.inverseSum;
+  const double pointShare = law.distanceEye * law.inversePoint * law.inverseSum;
+  // Along an edge e with normal change m: dh = (wi (wi.e) - e) / a + (wo (wo.e) - e) / b, and ds / s.
   const auto differentiate = [&](const dvec3& e, const dvec3& m) {
     const double ie = glm::dot(wi, e), oe = glm::dot(wo, e);
-    const dvec3 dh = wi * (ie * inverseA) + wo * (oe * inverseB) - e * inverseAPlusB;
-    const double dLambda = (glm::dot(dh, n) + glm::dot(h, m) - 2.0 * lambda * glm::dot(n, m)) * inverseNn;
-    const double dLogS = -(ba * ie + ab * oe);
-    return dh - lambda * m - dLambda * n + dLogS * q;
+    const dvec3 dh = wi * (ie * law.inverseEye) + wo * (oe * law.inversePoint) - e * inverseBoth;
+    const double dNn = 2.0 * glm::dot(n, m), dHn = glm::dot(dh, n) + glm::dot(law.h, m);
+    const double dLogS = -(eyeShare * ie + pointShare * oe);
+    return dNn * law.h + law.nn * dh - dHn * n - law.hn * m + dLogS * law.q;
   };
   const dvec3 qu = differentiate(t.edge1, t.normal1), qv = differentiate(t.edge2, t.normal2);
-  const double f1 = glm::dot(t.edge1, q), f2 = glm::dot(t.edge2, q);
+  const double f1 = glm::dot(t.edge1, law.q), f2 = glm::dot(t.edge2, law.q);
   const double j11 = glm::dot(t.edge1, qu), j12 = glm::dot(t.edge1, qv);
   const double j21 = glm::dot(t.edge2, qu), j22 = glm::dot(t.edge2, qv);
   const double inverseDeterminant = 1.0 / (j11 * j22 - j12 * j21);
-  law.du = (j12 * f2 - j22 * f1) * inverseDeterminant;
-  law.dv = (j21 * f1 - j11 * f2) * inverseDeterminant;
-  return law;
+  return {(j12 * f2 - j22 * f1) * inverseDeterminant, (j21 * f1 - j11 * f2) * inverseDeterminant};
 }
 
 /// Moves a surface point by (du, dv) of its triangle, across edges as they come.
@@ -146,37 +154,36 @@ struct SearchResult {
 [[nodiscard]] inline SearchResult searchReflectionPoint(std::span<const MirrorTriangle> triangles,
                                                         SurfacePoint at, const dvec3& eye, const dvec3& point,
                                                         int maxSteps, double tolerance, double longestStep) {
+  constexpr double kShorter = 0.35, kLeastDamping = 0.02;
   SearchResult result;
   SurfacePoint lastGood = at;
-  double lastAcross = 1e300, damping = 1.0, lastDu = 0, lastDv = 0;
-  for (result.steps = 1; result.steps <= maxSteps; ++result.steps) {
+  dvec2 lastStep(0);
+  double lastMerit = 1e300, damping = 1.0;
+  for (result.steps = 1;; ++result.steps) {
+    const MirrorTriangle& t = triangles[at.triangle];
     result.at = at;
-    result.law = evaluateMirrorLaw(triangles[at.triangle], at.u, at.v, eye, point);
-    const MirrorLaw& law = result.law;
-    if (law.sine <= tolerance && law.lambda > 0) {
+    result.law = evaluateMirrorLaw(t, at.u, at.v, eye, point);
+    if (result.law.hn > 0 && result.law.isWithin(tolerance)) {
       result.converged = true;
       return result;
     }
-    double du, dv;
-    if (law.across < lastAcross || damping < 0.02) {
-      const MirrorTriangle& t = triangles[at.triangle];
-      du = law.du, dv = law.dv;
-      const dvec3 step = du * t.edge1 + dv * t.edge2;
-      const double squared = glm::dot(step, step);
+    if (result.steps >= maxSteps) return result;
+    const double merit = result.law.squaredMerit();
+    dvec2 step;
+    if (merit < lastMerit || damping < kLeastDamping) {
+      step = computeNewtonStep(t, result.law);
+      const dvec3 move = step.x * t.edge1 + step.y * t.edge2;
+      const double squared = glm::dot(move, move);
       if (!(squared < 1e300)) return result;
-      if (squared > longestStep * longestStep) {
-        const double shorter = longestStep / std::sqrt(squared);
-        du *= shorter, dv *= shorter;
-      }
-      lastGood = at, lastAcross = law.across, lastDu = du, lastDv = dv, damping = 1.0;
-    } else {  // worse: back, and half as far
+      if (squared > longestStep * longestStep) step *= longestStep / std::sqrt(squared);
+      lastGood = at, lastMerit = merit, lastStep = step, damping = 1.0;
+    } else {  // worse: back, and not as far
       at = lastGood;
-      damping *= 0.35;
-      du = lastDu * damping, dv = lastDv * damping;
+      damping *= kShorter;
+      step = lastStep * damping;
     }
-    walkOnMesh(triangles, at, du, dv);
+    walkOnMesh(triangles, at, step.x, step.y);
   }
-  return result;
 }
 
 }  // namespace catoptric::virtual_object

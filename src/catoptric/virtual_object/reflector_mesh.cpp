@@ -28,6 +28,7 @@ namespace {
 
 constexpr double kWeldPositionTolerance = 1e-6;  // of the reflector's size
 constexpr double kWeldNormalTolerance = 0.01;    // 8-bit normals of one corner differ by up to 0.008
+constexpr double kConvexTolerance = 1e-4;        // sine; slivers of float meshes reach 1e-5
 constexpr double kMaxSkirtTurn = 1.2;            // radians, in all
 
 bool isFinite(const vec3& p) {
@@ -166,6 +167,7 @@ void ReflectorMesh::build(std::span<const vec3> positions, std::span<const vec3>
   bodyRadius_ = findRadius(positions_, centre_);
   const std::vector<std::uint32_t> boundary = linkNeighbours(triangles_, corners_);
   boundaryEdges_ = boundary.size();
+  isConvex_ = findWhetherConvex();
   if (options.skirtWidth > 0 && options.skirtRings > 0 && !boundary.empty()) {
     addSkirt(boundary, options);
     linkNeighbours(triangles_, corners_);
@@ -212,6 +214,21 @@ void ReflectorMesh::addBody(std::span<const vec3> positions, std::span<const vec
     triangles_.push_back(triangle);
   }
   ordinaryCount_ = triangles_.size();
+}
+
+/// No triangle's neighbour rises above its plane, by more than what float positions and flat quads bring
+/// about.
+bool ReflectorMesh::findWhetherConvex() const {
+  for (std::size_t i = 0; i < ordinaryCount_; ++i) {
+    const MirrorTriangle& t = triangles_[i];
+    const dvec3 facet = glm::normalize(glm::cross(t.edge1, t.edge2));
+    for (const std::uint32_t link : t.neighbours) {
+      if (link == kNoNeighbour) continue;
+      const dvec3 opposite = positions_[corners_[3 * (link / 4) + (link % 4 + 2) % 3]] - t.position0;
+      if (glm::dot(facet, opposite) > kConvexTolerance * glm::length(opposite)) return false;
+    }
+  }
+  return true;
 }
 
 // Step 4.

@@ -38,6 +38,12 @@ struct alignas(64) MirrorTriangle {
 
   [[nodiscard]] bool isSkirt() const { return (flags & kSkirt) != 0; }
   [[nodiscard]] dvec3 position(double u, double v) const { return position0 + u * edge1 + v * edge2; }
+  /// (u, v) of the foot of a point on the triangle's plane.
+  [[nodiscard]] dvec2 project(const dvec3& point) const {
+    const dvec3 d = point - position0;
+    const double a = glm::dot(edge1, d), b = glm::dot(edge2, d);
+    return {gram11 * a + gram12 * b, gram12 * a + gram22 * b};
+  }
   /// Not normalised.
   [[nodiscard]] dvec3 normal(double u, double v) const { return normal0 + u * normal1 + v * normal2; }
 };
@@ -67,6 +73,8 @@ class ReflectorMesh {
   [[nodiscard]] std::span<const dvec3> normals() const { return normals_; }      ///< welded, unit
 
   [[nodiscard]] bool isOpen() const { return ordinaryCount_ != triangles_.size() || boundaryEdges_ > 0; }
+  /// Every edge bends outwards, to within rounding; skirt left out.
+  [[nodiscard]] bool isConvex() const { return isConvex_; }
   [[nodiscard]] std::size_t boundaryEdges() const { return boundaryEdges_; }
   [[nodiscard]] dvec3 centre() const { return centre_; }           ///< of the bounding sphere, skirt included
   [[nodiscard]] double radius() const { return radius_; }          ///< tight, skirt included
@@ -78,12 +86,14 @@ class ReflectorMesh {
   void addBody(std::span<const vec3> positions, std::span<const vec3> normals,
                std::span<const std::uint32_t> indices, bool flipped);
   void addSkirt(std::span<const std::uint32_t> boundary, const ReflectorMeshOptions& options);
+  [[nodiscard]] bool findWhetherConvex() const;
   void addSkirtTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
   std::vector<MirrorTriangle> triangles_;
   std::vector<std::uint32_t> corners_;
   std::vector<dvec3> positions_, normals_;
   std::size_t ordinaryCount_ = 0, boundaryEdges_ = 0;
+  bool isConvex_ = true;
   dvec3 centre_{0};
   double radius_ = 0, bodyRadius_ = 0;
 };

@@ -38,59 +38,12 @@ constexpr double kNearSphere = 1.02;       // of the mesh's radius: slightly enl
 constexpr double kOnSurface = 1e-7;        // of the mesh's radius: a point this near lies on the mirror
 constexpr double kLongestStep = 0.7;       // of the mesh's radius
 constexpr double kLongestMirroring = 0.5;  // of the distance eye - mirror: keeps Q' in front of the eye
+constexpr double kNearlySine = 0.05;       // a root this near is good enough to place a doubly virtual vertex
+constexpr double kOutsideTriangle = 1e-6;  // barycentric slack
 constexpr std::size_t kGrain = 512;
 
 bool isFinite(const dvec3& p) {
   return std::isfinite(p.x + p.y + p.z);
-}
-
-SurfacePoint clampToTriangle(std::uint32_t triangle, double u, double v) {
-  u = std::max(u, 0.0), v = std::max(v, 0.0);
-  const double sum = u + v;
-  if (sum > 1.0) u /= sum, v /= sum;
-  return {triangle, u, v};
-}
-
-/// The point of an extension polygon's base edge on the radius through `coords`.
-SurfacePoint findOnOuterEdge(const ReflectorMesh& mesh, const ExplosionMap& map, std::uint32_t triangle,
-                             const dvec2& coords) {
-  const dvec2 c = map.extensionCentre, direction = coords - c;
-  double bestDistance = 1e300, bestT = 0.5;
-  int bestEdge = 0;
-  for (int k = 0; k < 3; ++k) {
-    const dvec2 a = map.coords[mesh.corners()[3 * triangle + k]];
-    const dvec2 b = map.coords[mesh.corners()[3 * triangle + (k + 1) % 3]];
-    const dvec2 edge = b - a;
-    const double denominator = direction.x * edge.y - direction.y * edge.x;
-    if (std::abs(denominator) < 1e-15) continue;
-    const double t =
-        std::clamp(((a.x - c.x) * direction.y - (a.y - c.y) * direction.x) / denominator, 0.0, 1.0);
-    const dvec2 away = a + t * edge - coords;
-    const double distance = glm::dot(away, away);
-    if (distance < bestDistance) bestDistance = distance, bestT = t, bestEdge = k;
-  }
-  if (bestEdge == 0) return {triangle, bestT, 0};
-  if (bestEdge == 1) return {triangle, 1.0 - bestT, bestT};
-  return {triangle, 0, 1.0 - bestT};
-}
-
-/// What a map says about a direction. `isExtension`: an extension polygon, or the skirt.
-struct MapAnswer {
-  SurfacePoint at;
-  bool isExtension = true;
-};
-
-MapAnswer lookUp(const ReflectorMesh& mesh, const ExplosionMap& map, const dvec2& coords, bool clamped) {
-  std::uint32_t id = map.idAt(coords);
-  if (id == core::kNoId)
-    id = map.idAt(coords * (1.0 - 2.0 / map.ids.width()));  // a rim pixel outside the circle
-  if (id == core::kNoId) return {};
-  const std::uint32_t triangle = id / 2;
-  if (id & kExtensionBit) return {findOnOuterEdge(mesh, map, triangle, coords), true};
-  const UvFromCoords& f = map.uvFromCoords[triangle];
-  const double u = f.u0 + f.ux * coords.x + f.uy * coords.y, v = f.v0 + f.vx * coords.x + f.vy * coords.y;
-  const bool isSkirt = mesh.triangles()[triangle].isSkirt();
-  return {clamped ? clampToTriangle(triangle, u, v) : SurfacePoint{triangle, u, v}, isSkirt};
 }
 
 /// Weight of the near map: linear in 1/|Q - C| (relative distances, methods.md section 1).
@@ -115,6 +68,7 @@ VirtualObjectSolver::VirtualObjectSolver(const ReflectorMesh& mesh, const dvec3&
   const int hidden = options.hiddenMapResolution;
   hiddenMap_.ids = core::Image<std::uint32_t>(hidden, hidden, core::kNoId);
   hiddenMap_.distances = core::Image<float>(hidden, hidden, 0.f);
+  seedMap_.pixels = core::Image<SeedPixel>(options.seedResolution, options.seedResolution);
   setEye(eye);
 }
 
@@ -122,40 +76,54 @@ void VirtualObjectSolver::setEye(const dvec3& eye) {
   eye_ = eye;
   canReflect_ = false;
   if (mesh_->triangles().empty() || !isFinite(eye)) return;
-  canReflect_ = computeReflectedRays(*mesh_, eye, scratch_) > 0;
+  canReflect_ = computeReflectedRays(*mesh_, eye, rays_) > 0;
   if (!canReflect_) return;
   const double nearRadius = kNearSphere * mesh_->radius();
   const double farRadius = std::max(farRadius_, 2.0 * nearRadius);
-  fillExplosionMap(*mesh_, eye, nearRadius, scratch_, nearMap_);
-  fillExplosionMap(*mesh_, eye, farRadius, scratch_, farMap_);
-  fillHiddenMap(*mesh_, eye, scratch_, hiddenMap_);
+  core::parallelFor(3, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (i == 0) fillExplosionMap(*mesh_, eye, nearRadius, rays_, scratch_[0], nearMap_);
+      if (i == 1) fillExplosionMap(*mesh_, eye, farRadius, rays_, scratch_[1], farMap_);
+      if (i == 2) fillHiddenMap(*mesh_, eye, scratch_[2], hiddenMap_);
+    }
+  });
+  fillSeedMap(*mesh_, nearMap_, farMap_, seedMap_);
 }
 
-/// Step 1 of Explosion, step 4 of Refined. kind None if no triangle hides the point.
-ReflectionPoint VirtualObjectSolver::solveHidden(const dvec3& scenePoint) const {
-  ReflectionPoint result;
+/// Where the ray to the point meets the triangle that hides the point from the eye; nothing if none does.
+/// `surely`: only where the hidden map's resolution leaves no doubt.
+std::optional<SurfacePoint> VirtualObjectSolver::findHidingPoint(const dvec3& scenePoint, bool surely) const {
   const dvec3 toPoint = scenePoint - eye_;
-  const double distance = glm::length(toPoint);
-  if (!(distance > 0)) return result;
-  const dvec2 coords = computeMapCoords(hiddenMap_.frame, toPoint / distance);
+  const double along = glm::dot(toPoint, hiddenMap_.frame.z), squared = glm::dot(toPoint, toPoint);
+  if (!(along > 0) || along * along < hiddenMap_.squaredCosine * squared) return std::nullopt;  // beside it
+  const dvec2 coords = computeMapCoords(hiddenMap_.frame, toPoint / std::sqrt(squared));
   const dvec2 px = (coords - hiddenMap_.lower) * hiddenMap_.pixelsPerUnit;
   const int n = hiddenMap_.ids.width();
-  if (!(px.x >= 0 && px.y >= 0 && px.x <= n && px.y <= n)) return result;
+  if (!(px.x >= 0 && px.y >= 0 && px.x <= n && px.y <= n)) return std::nullopt;
   const int x = std::min(int(px.x), n - 1), y = std::min(int(px.y), n - 1);
   std::uint32_t id = hiddenMap_.ids.at(x, y);
-  for (int k = 0; k < 9 && id == core::kNoId; ++k)  // a pixel at the outline may be covered in part only
-    id = hiddenMap_.ids.at(std::clamp(x + k % 3 - 1, 0, n - 1), std::clamp(y + k / 3 - 1, 0, n - 1));
-  if (id == core::kNoId) return result;
-
+  bool isInside = id != core::kNoId;
+  for (int k = 0; k < 9; ++k) {  // at the outline a pixel is covered in part only
+    const int nx = x + k % 3 - 1, ny = y + k / 3 - 1;
+    const std::uint32_t near =
+        nx < 0 || ny < 0 || nx >= n || ny >= n ? core::kNoId : hiddenMap_.ids.at(nx, ny);
+    isInside = isInside && near != core::kNoId;
+    if (id == core::kNoId) id = near;
+  }
+  if (id == core::kNoId || (surely && !isInside)) return std::nullopt;
   const MirrorTriangle& t = mesh_->triangles()[id];
   const dvec3 facet = glm::cross(t.edge1, t.edge2);
   const double fraction = glm::dot(facet, t.position0 - eye_) / glm::dot(facet, toPoint);
-  if (!(fraction > 0.0 && fraction < 1.0)) return result;
-  const dvec3 inTriangle = eye_ + fraction * toPoint - t.position0;
-  const double a = glm::dot(t.edge1, inTriangle), b = glm::dot(t.edge2, inTriangle);
-  const SurfacePoint at = clampToTriangle(id, t.gram11 * a + t.gram12 * b, t.gram12 * a + t.gram22 * b);
+  if (!(fraction > 0.0 && fraction < 1.0)) return std::nullopt;
+  const dvec2 uv = t.project(eye_ + fraction * toPoint);
+  return clampToTriangle(id, uv.x, uv.y);
+}
 
-  result.triangle = id;
+/// Step 1 of Explosion, step 4 of Refined.
+ReflectionPoint VirtualObjectSolver::mirrorHidden(const SurfacePoint& at, const dvec3& scenePoint) const {
+  ReflectionPoint result;
+  const MirrorTriangle& t = mesh_->triangles()[at.triangle];
+  result.triangle = at.triangle;
   result.u = at.u, result.v = at.v;
   result.position = t.position(at.u, at.v);
   result.normal = glm::normalize(t.normal(at.u, at.v));
@@ -169,20 +137,20 @@ ReflectionPoint VirtualObjectSolver::solveHidden(const dvec3& scenePoint) const 
 }
 
 ReflectionPoint VirtualObjectSolver::solveExplosion(const dvec3& scenePoint) const {
-  ReflectionPoint result = solveHidden(scenePoint);
-  if (result.kind != VertexKind::None) return result;
+  if (const auto hiding = findHidingPoint(scenePoint, false)) return mirrorHidden(*hiding, scenePoint);
   const dvec3 fromCentre = scenePoint - nearMap_.centre;
   const double distance = glm::length(fromCentre);
   const dvec3 direction = distance > 0 ? fromCentre / distance : nearMap_.frame.z;
   const dvec2 coords = computeMapCoords(nearMap_.frame, direction);
-  const MapAnswer nearAnswer = lookUp(*mesh_, nearMap_, coords, false);
-  const MapAnswer farAnswer = lookUp(*mesh_, farMap_, coords, false);
+  const MapAnswer nearAnswer = lookUpMap(*mesh_, nearMap_, coords);
+  const MapAnswer farAnswer = lookUpMap(*mesh_, farMap_, coords);
   const double w = computeNearWeight(distance, nearMap_.radius, farMap_.radius);
   const auto triangles = mesh_->triangles();
   const dvec3 nearVirtual =
       mirrorInPlaneAt(triangles[nearAnswer.at.triangle], nearAnswer.at.u, nearAnswer.at.v, scenePoint);
   const dvec3 farVirtual =
       mirrorInPlaneAt(triangles[farAnswer.at.triangle], farAnswer.at.u, farAnswer.at.v, scenePoint);
+  ReflectionPoint result;
   result.virtualPosition = w * nearVirtual + (1.0 - w) * farVirtual;
 
   const MapAnswer& heavier = w >= 0.5 ? nearAnswer : farAnswer;
@@ -192,7 +160,7 @@ ReflectionPoint VirtualObjectSolver::solveExplosion(const dvec3& scenePoint) con
   result.normal = glm::normalize(law.normal);
   result.triangle = heavier.at.triangle;
   result.u = heavier.at.u, result.v = heavier.at.v;
-  result.residual = law.sine;
+  result.residual = std::sqrt(law.squaredSine());
   result.steps = 1;
   result.kind = heavier.isExtension ? VertexKind::DoublyVirtual : VertexKind::Reflected;
   return result;
@@ -201,55 +169,46 @@ ReflectionPoint VirtualObjectSolver::solveExplosion(const dvec3& scenePoint) con
 /// Step 1 of Refined.
 SurfacePoint VirtualObjectSolver::findSeed(const dvec3& scenePoint) const {
   const dvec3 fromCentre = scenePoint - nearMap_.centre;
-  const double distance = glm::length(fromCentre);
-  const dvec3 direction = distance > 0 ? fromCentre / distance : nearMap_.frame.z;
-  const dvec2 coords = computeMapCoords(nearMap_.frame, direction);
+  const double distance = std::sqrt(glm::dot(fromCentre, fromCentre));
+  const dvec3 direction = distance > 0 ? fromCentre * (1.0 / distance) : nearMap_.frame.z;
+  const SeedPixel& seed = seedMap_.at(computeMapCoords(nearMap_.frame, direction));
   const double w = computeNearWeight(distance, nearMap_.radius, farMap_.radius);
-  const SurfacePoint nearAt = lookUp(*mesh_, nearMap_, coords, true).at;
-  const SurfacePoint farAt = lookUp(*mesh_, farMap_, coords, true).at;
-  const auto triangles = mesh_->triangles();
-  const MirrorTriangle& nearTriangle = triangles[nearAt.triangle];
-  const MirrorTriangle& farTriangle = triangles[farAt.triangle];
-  const dvec3 apart = farTriangle.position(farAt.u, farAt.v) - nearTriangle.position(nearAt.u, nearAt.v);
-  SurfacePoint at = w >= 0.5 ? nearAt : farAt;
-  const dvec3 displacement = w >= 0.5 ? (1.0 - w) * apart : -w * apart;
-  const MirrorTriangle& t = triangles[at.triangle];
-  const double x = glm::dot(t.edge1, displacement), y = glm::dot(t.edge2, displacement);
-  walkOnMesh(triangles, at, t.gram11 * x + t.gram12 * y, t.gram12 * x + t.gram22 * y);
+  const dvec3 blend = w * dvec3(seed.nearPosition) + (1.0 - w) * dvec3(seed.farPosition);
+  SurfacePoint at{w >= 0.5 ? seed.nearTriangle : seed.farTriangle};
+  const dvec2 target = mesh_->triangles()[at.triangle].project(blend);
+  walkOnMesh(mesh_->triangles(), at, target.x - at.u, target.y - at.v);
   return at;
 }
 
 ReflectionPoint VirtualObjectSolver::solveRefined(const dvec3& scenePoint) const {
-  const auto triangles = mesh_->triangles();
+  const bool isConvex = mesh_->isConvex();
+  if (isConvex)  // nothing behind a convex mirror is reflected: spare the search
+    if (const auto hiding = findHidingPoint(scenePoint, true)) return mirrorHidden(*hiding, scenePoint);
   const SearchResult found =
-      searchReflectionPoint(triangles, findSeed(scenePoint), eye_, scenePoint, options_.newtonSteps,
+      searchReflectionPoint(mesh_->triangles(), findSeed(scenePoint), eye_, scenePoint, options_.newtonSteps,
                             options_.tolerance, kLongestStep * mesh_->radius());
   const MirrorLaw& law = found.law;
-  const bool isOnSurface =
-      law.distancePoint <= kOnSurface * mesh_->radius() && glm::dot(law.normal, law.toEye) > 0;
-  const MirrorTriangle& t = triangles[found.at.triangle];
-  constexpr double kEdge = -1e-6;
-  const bool isOutside =
-      t.isSkirt() || found.at.u < kEdge || found.at.v < kEdge || found.at.u + found.at.v > 1 - kEdge;
+  const bool isOnSurface = !found.converged && law.distancePoint <= kOnSurface * mesh_->radius() &&
+                           glm::dot(law.normal, law.toEye) > 0;
+  const bool isPastBoundary =
+      mesh_->triangles()[found.at.triangle].isSkirt() ||
+      std::min({found.at.u, found.at.v, 1.0 - found.at.u - found.at.v}) < -kOutsideTriangle;
   if (!found.converged && !isOnSurface) {
-    ReflectionPoint hidden = solveHidden(scenePoint);
-    hidden.steps = found.steps;
-    // Not hidden either: a point that only a longer skirt would reflect, or one within a map pixel of the
-    // shadow.
-    const bool isUsable = std::isfinite(law.sine) && law.lambda > 0 && (isOutside || law.sine < 0.05);
-    if (hidden.kind != VertexKind::None || !isUsable) return hidden;
+    if (const auto hiding = findHidingPoint(scenePoint, false)) return mirrorHidden(*hiding, scenePoint);
+    // Not hidden either: only a longer skirt would reflect it, or it is within a map pixel of the shadow.
+    if (!(law.hn > 0 && (isPastBoundary || law.isWithin(kNearlySine)))) return {};
   }
   ReflectionPoint result;
   result.position = law.position;
   result.normal = glm::normalize(law.normal);
   result.virtualPosition =
-      isOnSurface && !found.converged ? scenePoint : eye_ - law.toEye * (law.distanceEye + law.distancePoint);
+      isOnSurface ? scenePoint : eye_ - law.toEye * (law.distanceEye + law.distancePoint);
   result.triangle = found.at.triangle;
   result.u = found.at.u, result.v = found.at.v;
-  result.residual = isOnSurface && !found.converged ? 0.0 : law.sine;
+  result.residual = isOnSurface ? 0.0 : std::sqrt(law.squaredSine());
   result.steps = found.steps;
-  result.kind =
-      (found.converged || isOnSurface) && !isOutside ? VertexKind::Reflected : VertexKind::DoublyVirtual;
+  const bool isReflected = (found.converged || isOnSurface) && !isPastBoundary;
+  result.kind = isReflected ? VertexKind::Reflected : VertexKind::DoublyVirtual;
   return result;
 }
 

@@ -35,8 +35,9 @@ enum class VertexKind : std::uint8_t { None, Reflected, DoublyVirtual };
 struct SolverOptions {
   int mapResolution = 256;        ///< pixels across the near and far map
   int hiddenMapResolution = 256;  ///< pixels across the hidden map
-  int newtonSteps = 16;           ///< most steps of Refined; two or three are usual
-  double tolerance = 1e-6;        ///< of Refined: sine of the angle between normal and half vector at J
+  int seedResolution = 128;       ///< pixels across the map of starting points of Refined
+  int newtonSteps = 16;           ///< most evaluations of Refined; three are usual
+  double tolerance = 1e-5;        ///< of Refined: sine of the angle between normal and half vector at J
 };
 
 /// Where the eye sees a scene point.
@@ -83,7 +84,8 @@ class VirtualObjectSolver {
  private:
   [[nodiscard]] ReflectionPoint solveExplosion(const dvec3& scenePoint) const;
   [[nodiscard]] ReflectionPoint solveRefined(const dvec3& scenePoint) const;
-  [[nodiscard]] ReflectionPoint solveHidden(const dvec3& scenePoint) const;
+  [[nodiscard]] std::optional<SurfacePoint> findHidingPoint(const dvec3& scenePoint, bool surely) const;
+  [[nodiscard]] ReflectionPoint mirrorHidden(const SurfacePoint& at, const dvec3& scenePoint) const;
   [[nodiscard]] ReflectionPoint solve(Solver solver, const dvec3& scenePoint) const;
   [[nodiscard]] SurfacePoint findSeed(const dvec3& scenePoint) const;
 
@@ -94,7 +96,9 @@ class VirtualObjectSolver {
   bool canReflect_ = false;
   ExplosionMap nearMap_, farMap_;
   HiddenMap hiddenMap_;
-  MapScratch scratch_;
+  SeedMap seedMap_;
+  ReflectedRays rays_;
+  MapScratch scratch_[3];
 };
 
 }  // namespace catoptric::virtual_object
