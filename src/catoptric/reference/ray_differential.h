@@ -11,10 +11,10 @@
 
 namespace catoptric::reference {
 
-/// Derivatives with respect to the pixel's x (to the right) and y (downwards).
+/// Derivatives with respect to the pixel's x (to the right) and y (downwards). Not initialised: this is hot.
 template <class T>
 struct PerPixel {
-  T dx{0}, dy{0};
+  T dx, dy;
 };
 
 struct RayDifferential {

@@ -199,6 +199,7 @@ ShadingNormal SurfaceShader::computeNormal(const Hit& hit) const {
     result.change = {change(hit.barycentricChange.dx), change(hit.barycentricChange.dy)};
   } else {  // normals that cancel each other
     result.normal = glm::normalize(hit.geometricNormal);
+    result.change = {dvec3(0), dvec3(0)};
   }
   const ShadingMaterial& m = material(hit);
   if (m.normal.texture != nullptr) result.normal = perturbNormal(m, hit, result.normal);

@@ -16,20 +16,21 @@
 
 namespace catoptric::reference {
 
+/// Not initialised by itself; direction is unit.
 struct Ray {
-  dvec3 origin{0}, direction{0, 0, -1};  ///< unit direction
+  dvec3 origin, direction;
   RayDifferential differential;
 };
 
-/// A point of a triangle met by a ray.
+/// A point of a triangle met by a ray; computeHit() sets every member.
 struct Hit {
-  std::uint32_t triangle = 0, part = 0;
-  std::array<std::uint32_t, 3> vertices{};
-  double t = 0;
-  dvec3 position{0};
-  dvec3 geometricNormal{0};  ///< by winding, not unit
-  bool isFront = true;
-  dvec2 barycentric{0};  ///< weights of the second and third vertex
+  std::uint32_t triangle, part;
+  std::array<std::uint32_t, 3> vertices;
+  bool isFront;
+  double t;
+  dvec3 position;
+  dvec3 geometricNormal;  ///< by winding, not unit
+  dvec2 barycentric;      ///< weights of the second and third vertex
   PerPixel<dvec3> positionChange;
   PerPixel<dvec2> barycentricChange;
 };
@@ -41,9 +42,9 @@ struct Shaded {
   float alpha = 1;
 };
 
-/// Shading normal on the viewer's side.
+/// Shading normal on the viewer's side; computeNormal() sets every member.
 struct ShadingNormal {
-  dvec3 normal{0, 0, 1};
+  dvec3 normal;
   PerPixel<dvec3> change;  ///< of the interpolated normal; a normal map's own change is left out
 };
 
@@ -76,7 +77,7 @@ class SurfaceShader {
     float f0Dielectric = 0.04f;
   };
   struct SlotUv {
-    vec2 uv{0};
+    vec2 uv;
     PerPixel<vec2> change;
   };
 

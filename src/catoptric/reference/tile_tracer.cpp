@@ -52,28 +52,42 @@ TileTracer::TileTracer(const TracedScene& scene, const scene::CameraFrame& camer
       camera_(camera),
       options_(options),
       result_(result),
-      sampleWeight_(1.0f / float(std::max(options.samples, 1))) {
-  constexpr std::size_t kPaths = kTileEdgePx * kTileEdgePx;
+      sampleWeight_(1.0f / float(std::max(options.samples, 1))),
+      directionDx_(camera.rayDirectionDx()),
+      directionDy_(camera.rayDirectionDy()) {
+  constexpr int kPaths = kTileEdgePx * kTileEdgePx;
   paths_.reserve(kPaths);
   requests_.resize(kPaths);
   answers_.resize(kPaths);
+  for (int i = 0; i < kPaths; ++i) pixelOrder_.push_back(alongZCurve(i));
+}
+
+TileTracer::Path TileTracer::startPath(int x, int y, const dvec3& direction) const {
+  constexpr std::uint32_t kNone = core::kNoId;
+  const double inverseLength = 1.0 / glm::length(direction);
+  Path path;
+  path.ray.origin = camera_.eye;
+  path.ray.direction = direction * inverseLength;
+  path.ray.differential.origin = {dvec3(0), dvec3(0)};
+  path.ray.differential.direction = {
+      differentiateNormalized(path.ray.direction, inverseLength, directionDx_),
+      differentiateNormalized(path.ray.direction, inverseLength, directionDy_)};
+  path.tNear = 0;
+  path.ignoredTriangle = path.ignoredPart = path.passedTriangle = path.firstReflector = kNone;
+  path.x = x;
+  path.y = y;
+  path.bounces = path.layers = 0;
+  path.throughput = vec3(1);
+  path.length = 0;
+  return path;
 }
 
 void TileTracer::startPaths(int x0, int y0, const dvec2& samplePosition) {
   paths_.clear();
-  const dvec3 dx = camera_.rayDirectionDx(), dy = camera_.rayDirectionDy();
-  for (int i = 0; i < kTileEdgePx * kTileEdgePx; ++i) {
-    const ivec2 pixel = ivec2(x0, y0) + alongZCurve(i);
-    if (pixel.x >= camera_.widthPx || pixel.y >= camera_.heightPx) continue;
-    const dvec3 d = camera_.rayDirection(pixel.x + samplePosition.x, pixel.y + samplePosition.y);
-    const double inverseLength = 1.0 / glm::length(d);
-    Path& path = paths_.emplace_back();
-    path.x = pixel.x;
-    path.y = pixel.y;
-    path.ray.origin = camera_.eye;
-    path.ray.direction = d * inverseLength;
-    path.ray.differential.direction = {differentiateNormalized(path.ray.direction, inverseLength, dx),
-                                       differentiateNormalized(path.ray.direction, inverseLength, dy)};
+  for (const ivec2& offset : pixelOrder_) {
+    const int x = x0 + offset.x, y = y0 + offset.y;
+    if (x < camera_.widthPx && y < camera_.heightPx)
+      paths_.push_back(startPath(x, y, camera_.rayDirection(x + samplePosition.x, y + samplePosition.y)));
   }
 }
 

@@ -36,17 +36,18 @@ class TileTracer {
  private:
   struct Path {
     Ray ray;
-    float tNear = 0;
-    std::uint32_t ignoredTriangle = core::kNoId, ignoredPart = core::kNoId, passedTriangle = core::kNoId;
-    std::uint32_t firstReflector = core::kNoId;
-    int x = 0, y = 0, bounces = 0, layers = 0;
-    vec3 throughput{1};
-    double length = 0;  // of the legs before this ray
+    float tNear;
+    std::uint32_t ignoredTriangle, ignoredPart, passedTriangle;
+    std::uint32_t firstReflector;
+    int x, y, bounces, layers;
+    vec3 throughput;
+    double length;  // of the legs before this ray
   };
   enum class Purpose { Radiance, Seen, Both };
 
   void clearTile(int x0, int y0);
   void startPaths(int x0, int y0, const dvec2& samplePosition);
+  [[nodiscard]] Path startPath(int x, int y, const dvec3& direction) const;
   void tracePaths(Purpose purpose);
   /// True while the path goes on.
   bool follow(Path& path, const TraceAnswer& answer, Purpose purpose);
@@ -62,6 +63,8 @@ class TileTracer {
   const TraceOptions& options_;
   TraceResult& result_;
   const float sampleWeight_;
+  const dvec3 directionDx_, directionDy_;  // change of the camera's ray direction per pixel
+  std::vector<ivec2> pixelOrder_;          // of a tile
   std::vector<Path> paths_;
   std::vector<TraceRequest> requests_;
   std::vector<TraceAnswer> answers_;
