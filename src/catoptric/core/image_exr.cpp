@@ -18,6 +18,7 @@
 #include "catoptric/core/file.h"
 #include "catoptric/core/image_codec.h"
 #include "catoptric/core/image_io.h"
+#include "catoptric/core/log.h"
 
 namespace catoptric::core {
 namespace {
@@ -108,6 +109,9 @@ ExrImage readChannels(codec::Bytes bytes, const std::string& name, std::size_t m
     image.names.emplace_back(i.name());
   }
   const Imath::Box2i window = file.header().dataWindow();
+  if (window != file.header().displayWindow())
+    logWarningOnce("image '" + name +
+                   "': its data window is taken as the whole picture, its display window ignored");
   Imf::FrameBuffer frame;
   for (const std::string& channel : image.names) {
     image.values.emplace_back(std::size_t(size.width) * std::size_t(size.height));
@@ -141,7 +145,8 @@ const std::vector<float>* findChannel(const ExrImage& image, const std::string& 
 }  // namespace
 
 ImageRgbF codec::decodeExrRgb(Bytes bytes, const std::string& name, std::size_t maxPixels) {
-  const std::string wanted[] = {"R", "G", "B", "Y"};
+  // RY and BY are the colour of luminance-chroma files; being subsampled they are refused, not dropped.
+  const std::string wanted[] = {"R", "G", "B", "Y", "RY", "BY"};
   const ExrImage exr = decodeExr(bytes, name, maxPixels, wanted);
   const std::vector<float>* channels[3] = {findChannel(exr, "R"), findChannel(exr, "G"),
                                            findChannel(exr, "B")};
