@@ -247,10 +247,13 @@ void fillHiddenMap(const ReflectorMesh& mesh, const dvec3& eye, MapScratch& scra
     return true;
   };
   dvec2 lower(1), upper(-1);
+  map.nearest = 1e300;
   for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
     if (!isSeen(t)) continue;
-    for (const std::uint32_t v : cornersOf(mesh, t))
+    for (const std::uint32_t v : cornersOf(mesh, t)) {
       lower = glm::min(lower, scratch.coords[v]), upper = glm::max(upper, scratch.coords[v]);
+      map.nearest = std::min(map.nearest, glm::dot(mesh.positions()[v] - eye, map.frame.z));
+    }
   }
   map.squaredCosine = 2.0;  // nothing is hidden
   if (lower.x > upper.x) return;

@@ -66,6 +66,7 @@ struct ExplosionMap {
 struct HiddenMap {
   dvec3 eye{0};
   MapFrame frame;
+  double nearest = 0;        ///< along frame.z, of everything seen
   double squaredCosine = 0;  ///< of the half angle of a cone around frame.z that holds everything seen
   dvec2 lower{-1, -1}, pixelsPerUnit{1, 1};  ///< pixel = (coords - lower) * pixelsPerUnit
   core::Image<std::uint32_t> ids;            ///< triangle index, core::kNoId where the reflector is not seen

@@ -46,16 +46,12 @@ bool isFinite(const dvec3& p) {
   return std::isfinite(p.x + p.y + p.z);
 }
 
-/// Weight of the near map: linear in 1/|Q - C| (relative distances, methods.md section 1).
-double computeNearWeight(double distance, double nearRadius, double farRadius) {
-  if (distance <= nearRadius) return 1.0;
-  if (distance >= farRadius) return 0.0;
-  return (1.0 / distance - 1.0 / farRadius) / (1.0 / nearRadius - 1.0 / farRadius);
+std::uint32_t heavierTriangle(const SeedPixel& seed, double nearWeight) {
+  return nearWeight >= 0.5 ? seed.nearTriangle : seed.farTriangle;
 }
 
-dvec3 mirrorInPlaneAt(const MirrorTriangle& t, double u, double v, const dvec3& point) {
-  const dvec3 normal = glm::normalize(t.normal(u, v));
-  return point - 2.0 * glm::dot(point - t.position(u, v), normal) * normal;
+VirtualVertex checked(const VirtualVertex& vertex) {
+  return isFinite(vertex.virtualPosition + vertex.position) ? vertex : VirtualVertex{};
 }
 
 }  // namespace
@@ -80,6 +76,9 @@ void VirtualObjectSolver::setEye(const dvec3& eye) {
   if (!canReflect_) return;
   const double nearRadius = kNearSphere * mesh_->radius();
   const double farRadius = std::max(farRadius_, 2.0 * nearRadius);
+  // Weights from relative distances d_near = (rho - r_n) / r_n, d_far = (r_f - rho) / r_f: linear in 1 / rho.
+  inverseFar_ = 1.0 / farRadius;
+  weightScale_ = 1.0 / (1.0 / nearRadius - inverseFar_);
   core::parallelFor(3, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (i == 0) fillExplosionMap(*mesh_, eye, nearRadius, rays_, scratch_[0], nearMap_);
@@ -95,7 +94,8 @@ void VirtualObjectSolver::setEye(const dvec3& eye) {
 std::optional<SurfacePoint> VirtualObjectSolver::findHidingPoint(const dvec3& scenePoint, bool surely) const {
   const dvec3 toPoint = scenePoint - eye_;
   const double along = glm::dot(toPoint, hiddenMap_.frame.z), squared = glm::dot(toPoint, toPoint);
-  if (!(along > 0) || along * along < hiddenMap_.squaredCosine * squared) return std::nullopt;  // beside it
+  if (!(along > hiddenMap_.nearest)) return std::nullopt;                       // in front of it
+  if (along * along < hiddenMap_.squaredCosine * squared) return std::nullopt;  // beside it
   const dvec2 coords = computeMapCoords(hiddenMap_.frame, toPoint / std::sqrt(squared));
   const dvec2 px = (coords - hiddenMap_.lower) * hiddenMap_.pixelsPerUnit;
   const int n = hiddenMap_.ids.width();
@@ -120,111 +120,128 @@ std::optional<SurfacePoint> VirtualObjectSolver::findHidingPoint(const dvec3& sc
 }
 
 /// Step 1 of Explosion, step 4 of Refined.
-ReflectionPoint VirtualObjectSolver::mirrorHidden(const SurfacePoint& at, const dvec3& scenePoint) const {
-  ReflectionPoint result;
+VirtualVertex VirtualObjectSolver::mirrorHidden(const SurfacePoint& at, const dvec3& scenePoint) const {
   const MirrorTriangle& t = mesh_->triangles()[at.triangle];
-  result.triangle = at.triangle;
-  result.u = at.u, result.v = at.v;
-  result.position = t.position(at.u, at.v);
-  result.normal = glm::normalize(t.normal(at.u, at.v));
-  const dvec3 behind = scenePoint - result.position;
-  const double depth = glm::length(behind);
-  const double longest = kLongestMirroring * glm::length(result.position - eye_);
-  const dvec3 mirrored = core::reflectDirection(behind, result.normal);
-  result.virtualPosition = result.position + mirrored * (depth > longest ? longest / depth : 1.0);
-  result.kind = VertexKind::DoublyVirtual;
-  return result;
+  const dvec3 position = t.position(at.u, at.v);
+  const dvec3 behind = scenePoint - position;
+  const double depth = glm::length(behind), longest = kLongestMirroring * glm::length(position - eye_);
+  const dvec3 mirrored = core::reflectDirection(behind, glm::normalize(t.normal(at.u, at.v)));
+  const dvec3 virtualPosition = position + mirrored * (depth > longest ? longest / depth : 1.0);
+  return {virtualPosition, position, at, 0, VertexKind::DoublyVirtual};
 }
 
-ReflectionPoint VirtualObjectSolver::solveExplosion(const dvec3& scenePoint) const {
+VirtualVertex VirtualObjectSolver::solveExplosion(const dvec3& scenePoint, const dvec2& coords,
+                                                  double w) const {
   if (const auto hiding = findHidingPoint(scenePoint, false)) return mirrorHidden(*hiding, scenePoint);
-  const dvec3 fromCentre = scenePoint - nearMap_.centre;
-  const double distance = glm::length(fromCentre);
-  const dvec3 direction = distance > 0 ? fromCentre / distance : nearMap_.frame.z;
-  const dvec2 coords = computeMapCoords(nearMap_.frame, direction);
-  const MapAnswer nearAnswer = lookUpMap(*mesh_, nearMap_, coords);
-  const MapAnswer farAnswer = lookUpMap(*mesh_, farMap_, coords);
-  const double w = computeNearWeight(distance, nearMap_.radius, farMap_.radius);
-  const auto triangles = mesh_->triangles();
-  const dvec3 nearVirtual =
-      mirrorInPlaneAt(triangles[nearAnswer.at.triangle], nearAnswer.at.u, nearAnswer.at.v, scenePoint);
-  const dvec3 farVirtual =
-      mirrorInPlaneAt(triangles[farAnswer.at.triangle], farAnswer.at.u, farAnswer.at.v, scenePoint);
-  ReflectionPoint result;
-  result.virtualPosition = w * nearVirtual + (1.0 - w) * farVirtual;
-
+  const MapAnswer nearAnswer = lookUpMap(*mesh_, nearMap_, coords),
+                  farAnswer = lookUpMap(*mesh_, farMap_, coords);
+  const auto mirror = [&](const SurfacePoint& at) {
+    const MirrorTriangle& t = mesh_->triangles()[at.triangle];
+    const dvec3 n = t.normal(at.u, at.v);
+    return scenePoint - n * (2.0 * glm::dot(scenePoint - t.position(at.u, at.v), n) / glm::dot(n, n));
+  };
   const MapAnswer& heavier = w >= 0.5 ? nearAnswer : farAnswer;
-  const MirrorLaw law =
-      evaluateMirrorLaw(triangles[heavier.at.triangle], heavier.at.u, heavier.at.v, eye_, scenePoint);
-  result.position = law.position;
-  result.normal = glm::normalize(law.normal);
-  result.triangle = heavier.at.triangle;
-  result.u = heavier.at.u, result.v = heavier.at.v;
-  result.residual = std::sqrt(law.squaredSine());
-  result.steps = 1;
-  result.kind = heavier.isExtension ? VertexKind::DoublyVirtual : VertexKind::Reflected;
-  return result;
+  return {w * mirror(nearAnswer.at) + (1.0 - w) * mirror(farAnswer.at),
+          mesh_->triangles()[heavier.at.triangle].position(heavier.at.u, heavier.at.v), heavier.at, 0,
+          heavier.isExtension ? VertexKind::DoublyVirtual : VertexKind::Reflected};
 }
 
-/// Step 1 of Refined.
-SurfacePoint VirtualObjectSolver::findSeed(const dvec3& scenePoint) const {
-  const dvec3 fromCentre = scenePoint - nearMap_.centre;
-  const double distance = std::sqrt(glm::dot(fromCentre, fromCentre));
-  const dvec3 direction = distance > 0 ? fromCentre * (1.0 / distance) : nearMap_.frame.z;
-  const SeedPixel& seed = seedMap_.at(computeMapCoords(nearMap_.frame, direction));
-  const double w = computeNearWeight(distance, nearMap_.radius, farMap_.radius);
-  const dvec3 blend = w * dvec3(seed.nearPosition) + (1.0 - w) * dvec3(seed.farPosition);
-  SurfacePoint at{w >= 0.5 ? seed.nearTriangle : seed.farTriangle};
+/// MapCoords of the direction centre -> Q, without normalising it first, and the near map's weight.
+dvec2 VirtualObjectSolver::computeCoords(const dvec3& scenePoint, double& nearWeight) const {
+  const dvec3 d = scenePoint - nearMap_.centre;
+  const MapFrame& frame = nearMap_.frame;
+  const double distance = std::sqrt(std::max(glm::dot(d, d), 1e-300));
+  const double inverse = 1.0 / distance;
+  nearWeight = std::clamp((inverse - inverseFar_) * weightScale_, 0.0, 1.0);
+  const double cosine = std::max(glm::dot(frame.z, d) * inverse, -1.0 + 1e-12);
+  const double scale = inverse / std::sqrt(2.0 * (cosine + 1.0));
+  return {glm::dot(frame.x, d) * scale, glm::dot(frame.y, d) * scale};
+}
+
+/// Step 1 of Refined, after the map was read.
+SurfacePoint VirtualObjectSolver::findSeed(const SeedPixel& seed, double nearWeight) const {
+  const dvec3 blend = nearWeight * dvec3(seed.nearPosition) + (1.0 - nearWeight) * dvec3(seed.farPosition);
+  SurfacePoint at{heavierTriangle(seed, nearWeight)};
   const dvec2 target = mesh_->triangles()[at.triangle].project(blend);
   walkOnMesh(mesh_->triangles(), at, target.x - at.u, target.y - at.v);
   return at;
 }
 
-ReflectionPoint VirtualObjectSolver::solveRefined(const dvec3& scenePoint) const {
-  const bool isConvex = mesh_->isConvex();
-  if (isConvex)  // nothing behind a convex mirror is reflected: spare the search
+VirtualVertex VirtualObjectSolver::solveRefined(const dvec3& scenePoint, const SeedPixel& seed,
+                                                double nearWeight) const {
+  if (mesh_->isConvex())  // nothing behind a convex mirror is reflected: spare the search
     if (const auto hiding = findHidingPoint(scenePoint, true)) return mirrorHidden(*hiding, scenePoint);
   const SearchResult found =
-      searchReflectionPoint(mesh_->triangles(), findSeed(scenePoint), eye_, scenePoint, options_.newtonSteps,
-                            options_.tolerance, kLongestStep * mesh_->radius());
+      searchReflectionPoint(mesh_->triangles(), findSeed(seed, nearWeight), eye_, scenePoint,
+                            options_.newtonSteps, options_.tolerance, kLongestStep * mesh_->radius());
   const MirrorLaw& law = found.law;
-  const bool isOnSurface = !found.converged && law.distancePoint <= kOnSurface * mesh_->radius() &&
-                           glm::dot(law.normal, law.toEye) > 0;
   const bool isPastBoundary =
       mesh_->triangles()[found.at.triangle].isSkirt() ||
       std::min({found.at.u, found.at.v, 1.0 - found.at.u - found.at.v}) < -kOutsideTriangle;
-  if (!found.converged && !isOnSurface) {
-    if (const auto hiding = findHidingPoint(scenePoint, false)) return mirrorHidden(*hiding, scenePoint);
-    // Not hidden either: only a longer skirt would reflect it, or it is within a map pixel of the shadow.
-    if (!(law.hn > 0 && (isPastBoundary || law.isWithin(kNearlySine)))) return {};
-  }
-  ReflectionPoint result;
-  result.position = law.position;
-  result.normal = glm::normalize(law.normal);
-  result.virtualPosition =
-      isOnSurface ? scenePoint : eye_ - law.toEye * (law.distanceEye + law.distancePoint);
-  result.triangle = found.at.triangle;
-  result.u = found.at.u, result.v = found.at.v;
-  result.residual = isOnSurface ? 0.0 : std::sqrt(law.squaredSine());
-  result.steps = found.steps;
-  const bool isReflected = (found.converged || isOnSurface) && !isPastBoundary;
-  result.kind = isReflected ? VertexKind::Reflected : VertexKind::DoublyVirtual;
-  return result;
+  const VertexKind kind = isPastBoundary ? VertexKind::DoublyVirtual : VertexKind::Reflected;
+  const dvec3 virtualPosition = eye_ - law.toEye * (law.distanceEye + law.distancePoint);
+  if (found.converged) return {virtualPosition, law.position, found.at, found.steps, kind};
+
+  const bool isOnSurface = law.distancePoint <= kOnSurface * mesh_->radius();
+  if (isOnSurface && glm::dot(law.normal, law.toEye) > 0)
+    return {scenePoint, law.position, found.at, found.steps, kind};
+  if (const auto hiding = findHidingPoint(scenePoint, false)) return mirrorHidden(*hiding, scenePoint);
+  // Not hidden either: only a longer skirt would reflect it, or it is within a map pixel of the shadow.
+  if (!(law.hn > 0 && (isPastBoundary || law.isWithin(kNearlySine)))) return {};
+  return {virtualPosition, law.position, found.at, found.steps, VertexKind::DoublyVirtual};
 }
 
-ReflectionPoint VirtualObjectSolver::solve(Solver solver, const dvec3& scenePoint) const {
+VirtualVertex VirtualObjectSolver::solve(Solver solver, const dvec3& scenePoint) const {
   if (!canReflect_ || !isFinite(scenePoint)) return {};
-  ReflectionPoint result =
-      solver == Solver::Explosion ? solveExplosion(scenePoint) : solveRefined(scenePoint);
-  if (!isFinite(result.virtualPosition) || !isFinite(result.position)) return {};
-  return result;
+  double nearWeight;
+  const dvec2 coords = computeCoords(scenePoint, nearWeight);
+  return checked(solver == Solver::Explosion ? solveExplosion(scenePoint, coords, nearWeight)
+                                             : solveRefined(scenePoint, seedMap_.at(coords), nearWeight));
+}
+
+/// Vertices in blocks, so that the block's fetches from the seed map and from the triangles, which are
+/// scattered over more memory than the cache holds, are under way while others are computed.
+template <class Write>
+void VirtualObjectSolver::computeRefined(std::span<const vec3> scenePoints, const Write& write) const {
+  constexpr std::size_t kBlock = 32;
+  const SeedPixel* seeds[kBlock];
+  double weights[kBlock];
+  for (std::size_t first = 0; first < scenePoints.size(); first += kBlock) {
+    const std::size_t count = std::min(kBlock, scenePoints.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      const dvec3 point(scenePoints[first + i]);
+      seeds[i] = &seedMap_.at(isFinite(point) ? computeCoords(point, weights[i]) : dvec2(0));
+      __builtin_prefetch(seeds[i]);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const char* record =
+          reinterpret_cast<const char*>(&mesh_->triangles()[heavierTriangle(*seeds[i], weights[i])]);
+      for (std::size_t line = 0; line < sizeof(MirrorTriangle); line += 64) __builtin_prefetch(record + line);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const dvec3 point(scenePoints[first + i]);
+      write(first + i,
+            isFinite(point) ? checked(solveRefined(point, *seeds[i], weights[i])) : VirtualVertex{});
+    }
+  }
 }
 
 std::optional<ReflectionPoint> VirtualObjectSolver::findReflectionPoint(Solver solver,
                                                                         const dvec3& scenePoint) const {
-  const ReflectionPoint result = solve(solver, scenePoint);
-  if (result.kind == VertexKind::None) return std::nullopt;
-  return result;
+  const VirtualVertex vertex = solve(solver, scenePoint);
+  if (vertex.kind == VertexKind::None) return std::nullopt;
+  const MirrorTriangle& t = mesh_->triangles()[vertex.at.triangle];
+  const MirrorLaw law = evaluateMirrorLaw(t, vertex.at.u, vertex.at.v, eye_, scenePoint);
+  const bool isOnSurface = law.distancePoint <= kOnSurface * mesh_->radius();
+  ReflectionPoint point;
+  point.position = vertex.position;
+  point.normal = glm::normalize(law.normal);
+  point.virtualPosition = vertex.virtualPosition;
+  point.at = vertex.at;
+  point.residual = isOnSurface ? 0.0 : std::sqrt(law.squaredSine());
+  point.steps = vertex.steps;
+  point.kind = vertex.kind;
+  return point;
 }
 
 void VirtualObjectSolver::compute(Solver solver, std::span<const vec3> scenePoints,
@@ -233,13 +250,16 @@ void VirtualObjectSolver::compute(Solver solver, std::span<const vec3> scenePoin
   assert(virtualPositions.size() == scenePoints.size() && kinds.size() == scenePoints.size());
   assert(reflectionPoints.empty() || reflectionPoints.size() == scenePoints.size());
   core::parallelFor(scenePoints.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const ReflectionPoint point = solve(solver, dvec3(scenePoints[i]));
-      const bool isUsable = point.kind != VertexKind::None;
-      virtualPositions[i] = isUsable ? vec3(point.virtualPosition) : scenePoints[i];
-      kinds[i] = point.kind;
-      if (!reflectionPoints.empty()) reflectionPoints[i] = isUsable ? vec3(point.position) : scenePoints[i];
-    }
+    const auto write = [&](std::size_t i, const VirtualVertex& vertex) {
+      const bool isUsable = vertex.kind != VertexKind::None;
+      virtualPositions[begin + i] = isUsable ? vec3(vertex.virtualPosition) : scenePoints[begin + i];
+      kinds[begin + i] = vertex.kind;
+      if (reflectionPoints.empty()) return;
+      reflectionPoints[begin + i] = isUsable ? vec3(vertex.position) : scenePoints[begin + i];
+    };
+    if (solver == Solver::Refined && canReflect_)
+      return computeRefined(scenePoints.subspan(begin, end - begin), write);
+    for (std::size_t i = begin; i < end; ++i) write(i - begin, solve(solver, dvec3(scenePoints[i])));
   });
 }
 

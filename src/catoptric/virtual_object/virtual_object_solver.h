@@ -42,13 +42,20 @@ struct SolverOptions {
 
 /// Where the eye sees a scene point.
 struct ReflectionPoint {
-  dvec3 position{0};           ///< J
-  dvec3 normal{0};             ///< unit
-  dvec3 virtualPosition{0};    ///< Q'
-  std::uint32_t triangle = 0;  ///< index into ReflectorMesh::triangles()
-  double u = 0, v = 0;         ///< J = position0 + u edge1 + v edge2 of it
-  double residual = 0;         ///< sine of the angle between normal and half vector
-  int steps = 0;               ///< evaluations of the mirror law
+  dvec3 position{0};         ///< J
+  dvec3 normal{0};           ///< unit
+  dvec3 virtualPosition{0};  ///< Q'
+  SurfacePoint at;           ///< J on ReflectorMesh::triangles()
+  double residual = 0;       ///< sine of the angle between normal and half vector
+  int steps = 0;             ///< evaluations of the mirror law
+  VertexKind kind = VertexKind::None;
+};
+
+/// The part of it that every vertex needs.
+struct VirtualVertex {
+  dvec3 virtualPosition{0}, position{0};  ///< Q', J
+  SurfacePoint at;
+  int steps = 0;
   VertexKind kind = VertexKind::None;
 };
 
@@ -82,16 +89,21 @@ class VirtualObjectSolver {
   [[nodiscard]] const HiddenMap& hiddenMap() const { return hiddenMap_; }
 
  private:
-  [[nodiscard]] ReflectionPoint solveExplosion(const dvec3& scenePoint) const;
-  [[nodiscard]] ReflectionPoint solveRefined(const dvec3& scenePoint) const;
+  [[nodiscard]] VirtualVertex solve(Solver solver, const dvec3& scenePoint) const;
+  [[nodiscard]] VirtualVertex solveExplosion(const dvec3& scenePoint, const dvec2& coords,
+                                             double nearWeight) const;
+  [[nodiscard]] VirtualVertex solveRefined(const dvec3& scenePoint, const SeedPixel& seed,
+                                           double nearWeight) const;
+  template <class Write>
+  void computeRefined(std::span<const vec3> scenePoints, const Write& write) const;
+  [[nodiscard]] dvec2 computeCoords(const dvec3& scenePoint, double& nearWeight) const;
+  [[nodiscard]] SurfacePoint findSeed(const SeedPixel& seed, double nearWeight) const;
   [[nodiscard]] std::optional<SurfacePoint> findHidingPoint(const dvec3& scenePoint, bool surely) const;
-  [[nodiscard]] ReflectionPoint mirrorHidden(const SurfacePoint& at, const dvec3& scenePoint) const;
-  [[nodiscard]] ReflectionPoint solve(Solver solver, const dvec3& scenePoint) const;
-  [[nodiscard]] SurfacePoint findSeed(const dvec3& scenePoint) const;
+  [[nodiscard]] VirtualVertex mirrorHidden(const SurfacePoint& at, const dvec3& scenePoint) const;
 
   const ReflectorMesh* mesh_;
   dvec3 eye_{0};
-  double farRadius_ = 0;
+  double farRadius_ = 0, inverseFar_ = 0, weightScale_ = 0;
   SolverOptions options_;
   bool canReflect_ = false;
   ExplosionMap nearMap_, farMap_;
