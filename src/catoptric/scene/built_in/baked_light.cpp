@@ -40,9 +40,13 @@ double coveredShare(const dvec3& point, const FacedSolid& solid) {
   const dvec3 d = solid.bounds.centre - point;
   if (solid.bounds.radius * solid.bounds.radius < kNegligibleShare * glm::dot(d, d)) return 0;
   double sum = 0;
-  for (const std::vector<dvec3>& face : solid.faces)
-    if (looksAt(point, face)) sum += std::abs(polygonFormFactor(point, face));
-  return std::clamp(sum, 0.0, 1.0);
+  bool isInside = true;
+  for (const std::vector<dvec3>& face : solid.faces) {
+    if (!looksAt(point, face)) continue;
+    isInside = false;
+    sum += std::abs(polygonFormFactor(point, face));
+  }
+  return isInside ? 1.0 : std::clamp(sum, 0.0, 1.0);
 }
 
 double coveredShare(const dvec3& point, const BallSolid& ball) {

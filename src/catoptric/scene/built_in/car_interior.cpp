@@ -18,8 +18,7 @@ using geometry::transformed;
 using geometry::turnAround;
 
 constexpr double kQuarterTurn = 1.5707963267948966;
-const dvec3 kLeftMirror(-1.02, 1.03, -1.15), kRightMirror(1.02, 1.03, -1.15),
-    kInnerMirror(0.03, 1.355, -0.56);
+const dvec3 kLeftMirror(-1.03, 1.05, -1.3), kRightMirror(1.03, 1.05, -1.3), kInnerMirror(0.03, 1.355, -0.56);
 
 struct CarPaints {
   int body, trim, dash, leather, steel;
@@ -27,7 +26,7 @@ struct CarPaints {
 
 CarPaints carPaints(SceneBuilder& builder) {
   return {builder.paint("own car paint", colour(0x7A1820), 0.25f),
-          builder.paint("trim", colour(0x3A3A3C), 0.8f), builder.paint("dashboard", colour(0x2B2C2F), 0.75f),
+          builder.paint("trim", colour(0x4A4846), 0.8f), builder.paint("dashboard", colour(0x4B4C50), 0.75f),
           builder.paint("leather", colour(0x4A3A30), 0.7f),
           builder.metal("satin steel", colour(0x9BA0A5), 0.4f)};
 }
@@ -71,21 +70,18 @@ void addWingMirror(SceneBuilder& builder, const CarPaints& paints, bool isLeft) 
   const dmat4 frame = worldFromMirror(place, {out * 0.13, -0.045, 1});
   builder.place(side + " wing mirror", makeWingMirrorGlass(options),
                 builder.mirror("mirror glass", vec3(0.93f, 0.945f, 0.95f)), frame);
-  builder.place(side + " mirror housing",
-                makeMirrorHousing(options.widthMetres, options.heightMetres, options.cornerRadius, 0.085),
+  builder.place(side + " mirror housing", makeMirrorHousing(options.widthMetres, options.heightMetres, 0.085),
                 paints.body, frame);
-  const dvec3 foot(out * 0.84, 0.93, place.z + 0.04);
-  builder.place(side + " mirror arm", beam(foot, place + dvec3(-out * 0.06, -0.075, -0.06), 0.05, 0.07),
-                paints.trim);
+  // The arm reaches the housing from below and from the front, where it hides nothing of the glass.
+  const dvec3 foot(out * 0.85, 0.92, place.z - 0.12), hold = place + dvec3(-out * 0.05, -0.07, -0.09);
+  builder.place(side + " mirror arm", beam(foot, hold, 0.04, 0.06), paints.trim);
 }
 
 void addInnerMirror(SceneBuilder& builder, const CarPaints& paints) {
-  const dmat4 frame = worldFromMirror(kInnerMirror, dvec3(0.0, 1.10, 2.3) - kInnerMirror);
-  constexpr double kWidth = 0.26, kHeight = 0.068, kCorner = 0.02;
-  builder.place("inner mirror", makeFlatMirrorGlass(kWidth, kHeight, kCorner), builder.mirror("mirror glass"),
-                frame);
-  builder.place("inner mirror housing", makeMirrorHousing(kWidth, kHeight, kCorner, 0.035), paints.trim,
-                frame);
+  const dmat4 frame = worldFromMirror(kInnerMirror, dvec3(0.0, 1.21, 2.3) - kInnerMirror);
+  constexpr double kWidth = 0.30, kHeight = 0.085;
+  builder.place("inner mirror", makeFlatMirrorGlass(kWidth, kHeight), builder.mirror("mirror glass"), frame);
+  builder.place("inner mirror housing", makeMirrorHousing(kWidth, kHeight, 0.035), paints.trim, frame);
   builder.place("inner mirror stalk",
                 geometry::makeRod(kInnerMirror + dvec3(0, 0.01, -0.045),
                                   kInnerMirror + dvec3(0, 0.085, -0.06), 0.009, 12),
@@ -94,9 +90,9 @@ void addInnerMirror(SceneBuilder& builder, const CarPaints& paints) {
 
 void addDashboard(SceneBuilder& builder, const CarPaints& paints) {
   // Side view: x to the front, extruded across the car.
-  const std::array<dvec2, 8> profile = {dvec2(0.66, 0.55),  dvec2(1.42, 0.55),  dvec2(1.42, 0.93),
-                                        dvec2(1.25, 0.965), dvec2(0.86, 0.955), dvec2(0.74, 0.93),
-                                        dvec2(0.69, 0.88),  dvec2(0.70, 0.78)};
+  const std::array<dvec2, 8> profile = {dvec2(0.66, 0.55),  dvec2(2.0, 0.55),  dvec2(2.0, 0.88),
+                                        dvec2(1.45, 0.925), dvec2(0.86, 0.94), dvec2(0.74, 0.915),
+                                        dvec2(0.69, 0.87),  dvec2(0.70, 0.78)};
   builder.place("dashboard",
                 transformed(geometry::makeExtrusion(profile, 1.5, 0.7), turnAround({0, 1, 0}, kQuarterTurn)),
                 paints.dash);
@@ -104,14 +100,14 @@ void addDashboard(SceneBuilder& builder, const CarPaints& paints) {
                                      dvec2(0.11, 0.08), dvec2(0, 0.092), dvec2(-0.11, 0.08),
                                      dvec2(-0.16, 0.05)};
   builder.place("instrument hood",
-                transformed(geometry::makeExtrusion(hood, 0.2, 0.8), moveBy({kDriversEye.x, 0.953, -0.83})),
+                transformed(geometry::makeExtrusion(hood, 0.2, 0.8), moveBy({kDriversEye.x, 0.938, -0.84})),
                 paints.dash);
   const dmat4 wheel = moveBy({kDriversEye.x, 0.845, -0.5}) * turnAround({1, 0, 0}, 1.13);
   std::vector<Piece> pieces = {
       {geometry::makeTorus(0.185, 0.0155, 64, 16), paints.dash},
       {transformed(geometry::makeCylinder(0.062, 0.04, 32), moveBy({0, -0.012, 0})), paints.trim}};
   for (double angle : {0.0, 2.0, -2.0}) {
-    const dvec3 out(std::sin(angle + 3.14159265 * 0.0), 0, std::cos(angle));
+    const dvec3 out(std::sin(angle), 0, std::cos(angle));
     pieces.push_back(
         {geometry::makeRod(0.05 * out + dvec3(0, -0.012, 0), 0.178 * out, 0.013, 12), paints.steel});
   }
@@ -123,7 +119,7 @@ void addDashboard(SceneBuilder& builder, const CarPaints& paints) {
 void addCabin(SceneBuilder& builder, const CarPaints& paints) {
   Mesh trim;
   for (double side : {-1.0, 1.0}) {
-    append(trim, beam({side * 0.76, 0.92, -1.32}, {side * 0.60, 1.46, -0.42}, 0.05, 0.045));  // A-pillar
+    append(trim, beam({side * 0.76, 0.90, -1.92}, {side * 0.60, 1.46, -0.42}, 0.05, 0.045));  // A-pillar
     append(trim, beam({side * 0.79, 0.90, 0.42}, {side * 0.62, 1.46, 0.36}, 0.04, 0.09));     // B-pillar
     append(trim, beam({side * 0.74, 0.92, 2.05}, {side * 0.58, 1.46, 1.55}, 0.05, 0.12));     // C-pillar
     append(trim, boxAt({side * 0.795, 0.745, 0.39}, {0.05, 0.33, 3.3}));                      // door, inside
@@ -148,7 +144,7 @@ void addCabin(SceneBuilder& builder, const CarPaints& paints) {
 void addBody(SceneBuilder& builder, const CarPaints& paints) {
   Mesh body;
   for (double side : {-1.0, 1.0}) {
-    append(body, boxAt({side * 0.84, 0.62, 0.5}, {0.035, 0.6, 4.1}));
+    append(body, boxAt({side * 0.84, 0.62, 0.2}, {0.035, 0.6, 4.7}));
     append(body, boxAt({side * 0.80, 0.30, 0.5}, {0.06, 0.09, 3.9}));
   }
   builder.place("flanks", body, paints.body);
@@ -158,14 +154,14 @@ void addBody(SceneBuilder& builder, const CarPaints& paints) {
   builder.place("door handles", handles, paints.steel);
   const geometry::BicubicPatch bonnet = geometry::makeTranslationalPatch(
       {dvec3(-0.8, -0.05, 0), dvec3(-0.4, 0.0, 0), dvec3(0.4, 0.0, 0), dvec3(0.8, -0.05, 0)},
-      {dvec3(0, 0.62, -2.75), dvec3(0, 0.84, -2.68), dvec3(0, 0.9, -2.0), dvec3(0, 0.93, -1.44)});
+      {dvec3(0, 0.62, -3.05), dvec3(0, 0.82, -2.98), dvec3(0, 0.865, -2.5), dvec3(0, 0.885, -2.02)});
   builder.place("bonnet", geometry::tessellatePatch(bonnet, 16, 12, true), paints.body);
 }
 
 }  // namespace
 
 void addOwnCar(SceneBuilder& builder) {
-  builder.addCamera("driver", kDriversEye, kDriversEye + dvec3(0.19, -0.085, -1.0), 70);
+  builder.addCamera("driver", kDriversEye, kDriversEye + dvec3(0.165, -0.05, -1.0), 71);
   builder.addCamera("left-mirror", kDriversEye, kLeftMirror + dvec3(0.015, -0.01, 0), 16);
   builder.addCamera("right-mirror", kDriversEye, kRightMirror + dvec3(-0.015, -0.01, 0), 11);
   builder.addCamera("inner-mirror", kDriversEye, kInnerMirror, 20);

@@ -18,7 +18,7 @@ constexpr double kPyramidHeight = 0.85;
 int checkerMaterial(SceneBuilder& builder, const std::string& name, std::uint32_t first, std::uint32_t second,
                     int columns, int rows) {
   const auto corners = edgeShade({kBoxSize.x, rows * 0.4}, 0.25, 0.35);
-  return builder.textured(name, {768, rows * 96},
+  return builder.textured(name, {1024, 512},
                           shaded(checker(colour(first), colour(second), columns, rows), corners), 0.7f, 1);
 }
 

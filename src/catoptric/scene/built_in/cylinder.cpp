@@ -43,7 +43,9 @@ Pattern terraceFloor() {
     const double edge = std::max(p.x, p.y), round = glm::length(p);
     if (edge > 2.56) return border(uv);
     if (round < 0.72)
-      return std::max(p.x, p.y) + 0.41 * std::min(p.x, p.y) < 0.62 ? star(uv * 4.0) : colour(0x3A3430);
+      return round < 0.64 && round > 0.56 ? colour(0xC9A557)
+             : round < 0.56               ? star(uv * 4.0)
+                                          : colour(0x3A3430);
     return field((uv - 0.5) * (kTerrace / 5.12) + 0.5);
   };
 }
@@ -54,7 +56,7 @@ void addTerrace(SceneBuilder& builder) {
   const auto corners = edgeShade(dvec2(kTerrace), 0.2, 0.3);
   const int floor =
       builder.textured("terrace floor", {1024, 1024},
-                       shaded(terraceFloor(), [=](dvec2 uv) { return light(uv) * corners(uv); }), 0.6f, 1);
+                       shaded(terraceFloor(), [=](dvec2 uv) { return light(uv) * corners(uv); }), 0.6f, 2);
   builder.placeShell("floor", geometry::makePlane(kTerrace, kTerrace, 2, 2), floor);
   const int brick =
       builder.textured("brick", {512, 512}, bricks(colour(0xA8573B), colour(0xB9AE9C), 4, 8, 12), 0.85f, 2);
@@ -91,10 +93,11 @@ void addThings(SceneBuilder& builder) {
                 standAt({0.98, y, 0.62}, 29));
   builder.place("small block", makeToyBlock(builder, 0.28, "123", pine, colour(0x2E7A45)),
                 standAt({-0.42, y, 1.2}, -20));
-  builder.place("ball", geometry::makeUvSphere(0.2, 40, 20),
-                builder.textured("ball", {256, 128},
-                                 repeated(stripes(colour(0xF2C230), colour(0x2C6FB0), 1, 6), {1, 1}), 0.35f),
-                standAt({0.38, y + 0.2, 1.12}, 20));
+  builder.place(
+      "ball", geometry::makeUvSphere(0.2, 40, 20),
+      builder.textured("ball", {256, 128},
+                       repeated(stripes(colour(0xF2C230), colour(0x2C6FB0), 1, 6), {1, 1}), 0.35f, 2),
+      standAt({0.38, y + 0.2, 1.12}, 20));
   builder.place("teapot", makeTeapotPieces(builder.paint("teapot glaze", colour(0x4E9A7C), 0.25f)),
                 standAt({-1.15, y, -0.45}, 160, 0.45));
   builder.place("dodecahedron", geometry::makePolyhedron(geometry::Polyhedron::Dodecahedron, 0.3),
@@ -122,7 +125,7 @@ void addTrees(SceneBuilder& builder) {
 
 Scene makeCylinder() {
   SceneBuilder builder("cylinder");
-  builder.addCamera("front", {0.25, 1.15, 2.35}, {0.0, 0.56, 0.1}, 42);
+  builder.addCamera("front", {0.3, 1.72, 2.5}, {0.0, 0.58, 0.05}, 42);
   builder.addCamera("above", {1.2, 2.3, 1.6}, {0, 0.5, 0}, 45);
   addTerrace(builder);
   addTrees(builder);

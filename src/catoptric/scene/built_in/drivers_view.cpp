@@ -41,7 +41,7 @@ constexpr RoadUser kTraffic[] = {{"blue car behind left", "blue car paint", 0x1F
 
 /// One tile, 12 m of road: u across, v along; edge lines, broken lane lines, worn asphalt.
 Pattern roadTile() {
-  const Pattern asphalt = repeated(speckle(colour(0x545456), colour(0x7E7D7B), 128, 3), {2, 2});
+  const Pattern asphalt = repeated(speckle(colour(0x5A5A5B), colour(0x797876), 128, 3), {4, 4});
   return [=](dvec2 uv) {
     const double x = (uv.x - 0.5) * 2 * kRoadHalf, along = uv.y * kTile;
     const double worn = fractalNoise(uv * 64.0, ivec2(64), 3, 15);
@@ -114,8 +114,8 @@ void addRailAndFence(SceneBuilder& builder) {
 }
 
 void addRoadside(SceneBuilder& builder) {
-  const int trees[] = {builder.addMesh("tree 1", makeTree(builder, 6.5, 2)),
-                       builder.addMesh("tree 2", makeTree(builder, 8.5, 7))};
+  const int trees[] = {builder.addMesh("tree 1", makeTree(builder, 6.5, 2, 3)),
+                       builder.addMesh("tree 2", makeTree(builder, 8.5, 7, 3))};
   int count = 0;
   const auto plant = [&](double x, double z) {
     const double size = 0.8 + 0.5 * hashToUnit(count, 1, 40);

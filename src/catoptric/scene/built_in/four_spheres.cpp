@@ -55,8 +55,8 @@ BakedLight tableLight() {
 
 void addTable(SceneBuilder& builder) {
   const dvec2 half(0.5 * kTableSize.x, 0.5 * kTableSize.z);
-  const auto light = tableLight().bake(-half, half, kTableHeight, 288, 192, 0.85, 0.4);
-  const int top = builder.textured("table top", {1152, 768}, shaded(tableTop(), light), 0.45f, 1);
+  const auto light = tableLight().bake(-half, half, kTableHeight, 288, 192, 0.95, 0.5);
+  const int top = builder.textured("table top", {1024, 1024}, shaded(tableTop(), light), 0.45f, 1);
   builder.place("table", makeTable(builder, kTableSize, top));
 }
 
@@ -99,7 +99,7 @@ void addRoomAround(SceneBuilder& builder) {
   const auto contact = light.bake(-half, half, 0, 160, 128, 0.75, 0);
   const auto corners = edgeShade({kRoomSize.x, kRoomSize.z}, 0.3, 0.35);
   const Pattern boards = repeated(woodPlanks(colour(0xC79D6A), colour(0x93673C), 12, 5), {2, 2});
-  room.floor = builder.textured("floor boards", {1024, 896},
+  room.floor = builder.textured("floor boards", {1024, 1024},
                                 shaded(boards, [=](dvec2 uv) { return contact(uv) * corners(uv); }), 0.6f, 1);
   room.walls = builder.textured("wall plaster", {512, 512}, plaster(colour(0xD9CDB6), 0.06, 2), 0.9f, 1);
   room.ceiling = builder.paint("ceiling", colour(0xE9E6DF), 0.95f);
@@ -112,9 +112,9 @@ void addRoomAround(SceneBuilder& builder) {
   addWindow(builder, "rear window", kRoomSize, kFront, rear, white, 2, 1);
   const int frame = builder.paint("picture frame", colour(0x4A2F1B), 0.4f);
   addPicture(builder, "landscape", kRoomSize, kBack, {{1.2, 1.15}, {2.5, 2.0}},
-             builder.textured("landscape", {512, 340}, landscapePainting(), 0.5f), frame);
+             builder.textured("landscape", {512, 256}, landscapePainting(), 0.5f), frame);
   addPicture(builder, "abstract", kRoomSize, kBack, {{3.4, 1.1}, {4.2, 2.1}},
-             builder.textured("abstract", {320, 400}, abstractPainting(), 0.5f), frame);
+             builder.textured("abstract", {256, 512}, abstractPainting(), 0.5f), frame);
 }
 
 void addFurniture(SceneBuilder& builder) {
@@ -130,7 +130,7 @@ void addFurniture(SceneBuilder& builder) {
 
 Scene makeFourSpheres() {
   SceneBuilder builder("four-spheres");
-  builder.addCamera("front", {0.16, 1.42, 1.55}, {0.04, 0.89, 0.02}, 40);
+  builder.addCamera("front", {0.14, 1.44, 1.42}, {0.03, 0.87, 0.0}, 37);
   builder.addCamera("above", {-0.5, 2.1, 1.2}, {0, 0.85, 0}, 45);
   addRoomAround(builder);
   addFurniture(builder);

@@ -38,7 +38,7 @@ void addShell(SceneBuilder& builder) {
   };
   RoomOptions room;
   room.size = kHall;
-  room.floor = builder.textured("marble floor", {768, 1400},
+  room.floor = builder.textured("marble floor", {1024, 2048},
                                 shaded(floor, [=](dvec2 uv) { return baked(uv) * corners(uv); }), 0.5f, 1);
   room.walls = builder.textured("hall walls", {512, 512}, plaster(colour(0xC9B58F), 0.07, 6), 0.85f, 1);
   room.ceiling = builder.paint("ceiling", colour(0xE6E1D6), 0.95f);
@@ -108,7 +108,7 @@ void addFurniture(SceneBuilder& builder) {
   builder.place("chair", makeChair(builder), standAt({-1.3, y, 1.3}, 75));
   const int frame = builder.paint("picture frame", colour(0x3A281A), 0.4f);
   addPicture(builder, "landscape", kHall, kBack, {{1.35, 1.1}, {3.05, 2.2}},
-             builder.textured("landscape", {512, 340}, landscapePainting(), 0.5f), frame);
+             builder.textured("landscape", {512, 256}, landscapePainting(), 0.5f), frame);
 }
 
 /// Globes on rods that hang from the ceiling, where the point lights are.
@@ -129,7 +129,7 @@ void addLamps(SceneBuilder& builder) {
 
 Scene makeHallOfMirrors() {
   SceneBuilder builder("hall-of-mirrors");
-  builder.addCamera("visitor", {1.05, 1.58, 2.75}, {-1.15, 1.22, -0.9}, 60);
+  builder.addCamera("visitor", {1.2, 1.6, 2.7}, {-1.55, 1.2, -0.5}, 62);
   builder.addCamera("along", {0.0, 1.6, 3.6}, {0.0, 1.3, -1.0}, 65);
   addShell(builder);
   addMirrors(builder);

@@ -34,7 +34,7 @@ void addShell(SceneBuilder& builder) {
   RoomOptions room;
   room.size = kRoomSize;
   const Pattern parquet = checker(colour(0xD9D3C4), colour(0x5E6B70), 12, 10);
-  room.floor = builder.textured("floor tiles", {1200, 1000},
+  room.floor = builder.textured("floor tiles", {1024, 1024},
                                 shaded(parquet, [=](dvec2 uv) { return baked(uv) * corners(uv); }), 0.5f, 1);
   room.walls = builder.textured("wall plaster", {512, 512}, plaster(colour(0xC4CBBF), 0.06, 8), 0.9f, 1);
   room.ceiling = builder.paint("ceiling", colour(0xE9E6DF), 0.95f);
@@ -49,9 +49,9 @@ void addShell(SceneBuilder& builder) {
   addWindow(builder, "rear window", kRoomSize, kFront, rear, white, 2, 1);
   const int frame = builder.paint("picture frame", colour(0x2E2A26), 0.4f);
   addPicture(builder, "abstract", kRoomSize, kBack, {{0.9, 1.0}, {2.0, 2.3}},
-             builder.textured("abstract", {384, 448}, abstractPainting(), 0.5f), frame);
+             builder.textured("abstract", {256, 512}, abstractPainting(), 0.5f), frame);
   addPicture(builder, "landscape", kRoomSize, kBack, {{3.1, 1.1}, {4.9, 2.2}},
-             builder.textured("landscape", {512, 320}, landscapePainting(), 0.5f), frame);
+             builder.textured("landscape", {512, 256}, landscapePainting(), 0.5f), frame);
 }
 
 void addMirrors(SceneBuilder& builder) {
@@ -82,7 +82,7 @@ void addThings(SceneBuilder& builder) {
                 standAt({0.62, y, 0.95}, -23));
   builder.place(
       "ball", geometry::makeUvSphere(0.16, 32, 16),
-      builder.textured("ball", {256, 128}, stripes(colour(0xF2C230), colour(0x2C6FB0), 1, 6), 0.35f),
+      builder.textured("ball", {256, 128}, stripes(colour(0xF2C230), colour(0x2C6FB0), 1, 6), 0.35f, 2),
       standAt({-0.55, y + 0.16, 1.05}, 30));
   builder.place("teapot", makeTeapotPieces(builder.paint("teapot glaze", colour(0xB24A3A), 0.25f)),
                 standAt({-0.15, y, 1.35}, 40, 0.32));

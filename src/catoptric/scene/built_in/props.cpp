@@ -110,7 +110,7 @@ std::vector<Piece> makeTrafficCone(SceneBuilder& builder) {
     const bool isWhite = (uv.y > 0.2 && uv.y < 0.4) || (uv.y > 0.56 && uv.y < 0.74);
     return (isWhite ? white : orange) * float(0.96 + 0.08 * fractalNoise(uv * 12.0, ivec2(12), 3, 5));
   };
-  const int cone = builder.textured("cone bands", {64, 256}, bands, 0.55f);
+  const int cone = builder.textured("cone bands", {64, 256}, bands, 0.55f, 2);
   const int base = builder.paint("cone foot", colour(0x2B2B2D), 0.7f);
   return {{transformed(geometry::makeCone(0.155, 0.03, 0.68, 32, false), moveBy({0, 0.04, 0})), cone},
           {transformed(geometry::makeDisc(0.03, 0.72, 32, true), dmat4(1.0)), base},
@@ -197,7 +197,7 @@ std::vector<Piece> makeBookshelf(SceneBuilder& builder, const dvec3& size, int b
 
 std::vector<Piece> makeStripedPole(SceneBuilder& builder, double height, double radius) {
   const int bands =
-      builder.textured("pole stripes", {64, 256}, stripes(colour(0xC8261F), colour(0xF2EFE8), 5, 0), 0.5f);
+      builder.textured("pole stripes", {64, 256}, stripes(colour(0xC8261F), colour(0xF2EFE8), 5, 0), 0.5f, 2);
   const int foot = builder.paint("pole foot", colour(0x39393C), 0.7f);
   return {{transformed(geometry::makeCylinderSide(radius, height, 24, 1, true),
                        moveBy({0, 0.5 * height + 0.03, 0})),
@@ -228,7 +228,7 @@ std::vector<Piece> makePottedPlant(SceneBuilder& builder, double height, std::ui
   return pieces;
 }
 
-std::vector<Piece> makeTree(SceneBuilder& builder, double height, std::uint32_t seed) {
+std::vector<Piece> makeTree(SceneBuilder& builder, double height, std::uint32_t seed, int detail) {
   const int bark = builder.paint("bark", colour(0x5E4A38), 0.95f);
   std::vector<Piece> pieces = {
       {geometry::makeCone(0.045 * height, 0.025 * height, 0.55 * height, 12, false), bark}};
@@ -236,7 +236,7 @@ std::vector<Piece> makeTree(SceneBuilder& builder, double height, std::uint32_t 
     const double angle = 2.4 * i + double(seed), out = 0.16 * height * std::sqrt(i / 5.0);
     const double level = height * (0.58 + 0.24 * hashToUnit(i, 2, seed));
     const double radius = height * (0.17 + 0.07 * hashToUnit(i, 4, seed));
-    pieces.push_back({transformed(makeLeafBall(radius, 5, seed + std::uint32_t(i)),
+    pieces.push_back({transformed(makeLeafBall(radius, detail, seed + std::uint32_t(i)),
                                   moveBy({out * std::sin(angle), level, out * std::cos(angle)})),
                       leafPaint(builder)});
   }

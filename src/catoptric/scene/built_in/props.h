@@ -34,7 +34,9 @@ namespace catoptric::scene::built_in {
 /// Pot with a leafy bush.
 [[nodiscard]] std::vector<Piece> makePottedPlant(SceneBuilder& builder, double height, std::uint32_t seed);
 /// Broad-leaved tree.
-[[nodiscard]] std::vector<Piece> makeTree(SceneBuilder& builder, double height, std::uint32_t seed);
+/// `detail` is the number of facets along an edge of the crown's icosahedra.
+[[nodiscard]] std::vector<Piece> makeTree(SceneBuilder& builder, double height, std::uint32_t seed,
+                                          int detail = 5);
 /// Sofa for two, looks to +z.
 [[nodiscard]] std::vector<Piece> makeSofa(SceneBuilder& builder, const vec3& cloth);
 

@@ -29,7 +29,7 @@ class SceneBuilder {
   /// Materials. A second call with the same name gives the first one back.
   int paint(const std::string& name, const vec3& linearColour, float roughness = 0.55f);
   int textured(const std::string& name, const ivec2& sizePx, const Pattern& pattern, float roughness = 0.6f,
-               int samplesPerAxis = 2);
+               int samplesPerAxis = 1);
   int mirror(const std::string& name, const vec3& tint = vec3(0.95f));
   int metal(const std::string& name, const vec3& linearColour, float roughness);
   /// Shines by itself; not lit.

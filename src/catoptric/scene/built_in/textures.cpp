@@ -156,7 +156,7 @@ Pattern speckle(const vec3& dark, const vec3& light, int grains, std::uint32_t s
   return [=](dvec2 uv) {
     const double fine = periodicNoise(uv * double(grains), ivec2(grains), seed);
     const double coarse = fractalNoise(uv * 6.0, ivec2(6), 4, seed + 5);
-    return blend(dark, light, std::clamp(0.65 * fine + 0.35 * coarse + 0.5 * (coarse - 0.5), 0.0, 1.0));
+    return blend(dark, light, std::clamp(0.5 + 0.7 * (fine - 0.5) + 0.5 * (coarse - 0.5), 0.0, 1.0));
   };
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "catoptric/geometry/convex_edges.h"
 #include "catoptric/geometry/shapes.h"
 #include "catoptric/geometry/sweep.h"
 #include "catoptric/scene/built_in/noise.h"
@@ -65,22 +66,27 @@ Mesh capOf(const std::vector<dvec3>& ring) {
   return geometry::makeQuad(ring[0], ring[1], ring[2], ring[3]);
 }
 
-/// Offset outline of a rounded rectangle, counter-clockwise; 8 points to a corner.
-std::vector<dvec2> roundedOutline(double width, double height, double radius) {
-  std::vector<dvec2> outline;
-  for (int corner = 0; corner < 4; ++corner)
-    for (int i = 0; i <= 8; ++i) {
-      const double angle = kQuarterTurn * (corner + i / 8.0);
-      const dvec2 centre((corner == 0 || corner == 3 ? 1 : -1) * (0.5 * width - radius),
-                         (corner < 2 ? 1 : -1) * (0.5 * height - radius));
-      outline.push_back(centre + radius * dvec2(std::cos(angle), std::sin(angle)));
-    }
-  return outline;
+/// From the square [-1, 1]^2 to the outline of mirrors: a rectangle whose sides bulge and whose corners are
+/// blunt.
+dvec2 bulge(const dvec2& s) {
+  constexpr double kRoundness = 0.56;  // 0: the square, 1: a circle
+  return {s.x * std::sqrt(1 - 0.5 * kRoundness * s.y * s.y),
+          s.y * std::sqrt(1 - 0.5 * kRoundness * s.x * s.x)};
 }
 
-std::vector<dvec3> outlineRing(double width, double height, double radius, double z) {
+/// The outline at height z, counter-clockwise.
+std::vector<dvec3> outlineRing(double width, double height, double z) {
+  constexpr int kSteps = 12;  // to a side
   std::vector<dvec3> ring;
-  for (const dvec2& p : roundedOutline(width, height, radius)) ring.emplace_back(p, z);
+  for (int side = 0; side < 4; ++side)
+    for (int i = 0; i < kSteps; ++i) {
+      const double t = 2.0 * i / kSteps - 1;
+      const dvec2 square = side == 0   ? dvec2(1, t)
+                           : side == 1 ? dvec2(-t, 1)
+                           : side == 2 ? dvec2(-1, -t)
+                                       : dvec2(t, -1);
+      ring.emplace_back(0.5 * dvec2(width, height) * bulge(square), z);
+    }
   return ring;
 }
 
@@ -176,69 +182,58 @@ std::vector<Piece> makeHouse(SceneBuilder& builder, const dvec3& size, const std
 }
 
 Mesh makeWingMirrorGlass(const WingMirrorOptions& o) {
-  const double halfX = 0.5 * o.widthMetres, halfY = 0.5 * o.heightMetres, r = o.cornerRadius,
-               big = o.radiusOfCurvature;
-  const double outward = o.isOuterLeft ? -1 : 1, start = o.asphericFrom * halfX;
+  const dvec2 half(0.5 * o.widthMetres, 0.5 * o.heightMetres);
+  const double big = o.radiusOfCurvature, outward = o.isOuterLeft ? -1 : 1, start = o.asphericFrom * half.x;
   Mesh mesh;
   for (int row = 0; row <= o.cells; ++row)
     for (int column = 0; column <= o.cells; ++column) {
-      const double x = halfX * (2.0 * column / o.cells - 1);
-      const double inCorner = std::max(0.0, std::abs(x) - (halfX - r));
-      const double top = halfY - r + std::sqrt(std::max(0.0, r * r - inCorner * inCorner));
-      const double y = top * (1 - 2.0 * row / o.cells);
-      const double root = std::sqrt(big * big - x * x - y * y), beyond = std::max(0.0, outward * x - start);
+      const dvec2 p = half * bulge({2.0 * column / o.cells - 1, 1 - 2.0 * row / o.cells});
+      const double root = std::sqrt(big * big - glm::dot(p, p)),
+                   beyond = std::max(0.0, outward * p.x - start);
       const double z = root - big - o.asphericCubic * beyond * beyond * beyond;
-      const double dzdx = -x / root - outward * 3 * o.asphericCubic * beyond * beyond, dzdy = -y / root;
-      mesh.positions.push_back(vec3(dvec3(x, y, z)));
+      const double dzdx = -p.x / root - outward * 3 * o.asphericCubic * beyond * beyond, dzdy = -p.y / root;
+      mesh.positions.push_back(vec3(dvec3(p, z)));
       mesh.normals.push_back(vec3(glm::normalize(dvec3(-dzdx, -dzdy, 1))));
     }
   const auto at = [&](int column, int row) { return std::uint32_t(row * (o.cells + 1) + column); };
   for (int row = 0; row < o.cells; ++row)
     for (int column = 0; column < o.cells; ++column) {
-      // Of the two diagonals the one that bends outwards: it joins the corners whose middle lies higher.
-      const auto z = [&](int c, int w) { return mesh.positions[at(c, w)].z; };
-      const bool falls = z(column, row) + z(column + 1, row + 1) >= z(column + 1, row) + z(column, row + 1);
       const std::uint32_t a = at(column, row), b = at(column, row + 1), c = at(column + 1, row + 1),
                           d = at(column + 1, row);
-      if (falls)
-        mesh.indices.insert(mesh.indices.end(), {a, b, c, a, c, d});
-      else
-        mesh.indices.insert(mesh.indices.end(), {a, b, d, b, c, d});
+      mesh.indices.insert(mesh.indices.end(), {a, b, c, a, c, d});
     }
-  return mesh;
+  return geometry::withConvexEdges(std::move(mesh));
 }
 
-Mesh makeFlatMirrorGlass(double width, double height, double cornerRadius) {
+Mesh makeFlatMirrorGlass(double width, double height) {
   Mesh mesh;
   mesh.positions.push_back(vec3(0));
-  for (const dvec2& p : roundedOutline(width, height, cornerRadius)) mesh.positions.push_back(vec3(p, 0));
+  for (const dvec3& p : outlineRing(width, height, 0)) mesh.positions.push_back(vec3(p));
   mesh.normals.assign(mesh.positions.size(), vec3(0, 0, 1));
   const auto n = std::uint32_t(mesh.positions.size() - 1);
   for (std::uint32_t i = 0; i < n; ++i) mesh.indices.insert(mesh.indices.end(), {0u, 1 + i, 1 + (i + 1) % n});
   return mesh;
 }
 
-Mesh makeMirrorHousing(double width, double height, double cornerRadius, double depth) {
-  const double gap = 0.004, wall = 0.009, front = 0.008;
+Mesh makeMirrorHousing(double width, double height, double depth) {
+  constexpr double kGap = 0.004, kWall = 0.009, kFront = 0.008, kFloor = -0.03;
   const auto ring = [&](double grow, double z) {
-    return outlineRing(width + 2 * grow, height + 2 * grow, std::max(cornerRadius + grow, 0.3 * cornerRadius),
-                       z);
+    return outlineRing(width + 2 * grow, height + 2 * grow, z);
   };
   const double small = -0.25 * std::min(width, height);
   const std::vector<std::vector<dvec3>> rings = {ring(small, -depth),
                                                  ring(0.3 * small, -0.85 * depth),
-                                                 ring(gap + wall, -0.3 * depth),
-                                                 ring(gap + wall, front * 0.6),
-                                                 ring(gap + 0.5 * wall, front),
-                                                 ring(gap, front * 0.6),
-                                                 ring(gap, -0.03)};
+                                                 ring(kGap + kWall, -0.3 * depth),
+                                                 ring(kGap + kWall, 0.6 * kFront),
+                                                 ring(kGap + 0.5 * kWall, kFront),
+                                                 ring(kGap, 0.6 * kFront),
+                                                 ring(kGap, kFloor)};
   Mesh mesh = geometry::makeLoft(rings, 0.9);
-  Mesh back = transformed(makeFlatMirrorGlass(width + 2 * small, height + 2 * small, 0.3 * cornerRadius),
-                          moveBy({0, 0, -depth}));
-  append(mesh, geometry::flipped(std::move(back)));
+  const Mesh back =
+      transformed(makeFlatMirrorGlass(width + 2 * small, height + 2 * small), moveBy({0, 0, -depth}));
+  append(mesh, geometry::flipped(back));
   // The floor of the bowl, behind the glass.
-  append(mesh, transformed(makeFlatMirrorGlass(width + 2 * gap, height + 2 * gap, cornerRadius + gap),
-                           moveBy({0, 0, -0.03})));
+  append(mesh, transformed(makeFlatMirrorGlass(width + 2 * kGap, height + 2 * kGap), moveBy({0, 0, kFloor})));
   return mesh;
 }
 

@@ -18,7 +18,7 @@ namespace catoptric::scene::built_in {
                                            const std::string& wallName, const vec3& wall);
 
 struct WingMirrorOptions {
-  double widthMetres = 0.25, heightMetres = 0.18, cornerRadius = 0.05;
+  double widthMetres = 0.28, heightMetres = 0.19;
   double radiusOfCurvature = 1.3;
   double asphericFrom = 0.3;   ///< share of the half width, measured outwards, where the aspheric part starts
   double asphericCubic = 2.2;  ///< z falls by this times the cube of the distance beyond that, 1/m^2
@@ -26,16 +26,15 @@ struct WingMirrorOptions {
   int cells = 48;
 };
 
-/// The glass of a wing mirror: convex towards +z, rounded outline, apex at the origin, exact normals. A
+/// The glass of a wing mirror: convex towards +z, bulging outline, apex at the origin, exact normals. A
 /// sphere on the inner side, curving more and more on the outer one (twice continuously differentiable
 /// throughout).
 [[nodiscard]] geometry::Mesh makeWingMirrorGlass(const WingMirrorOptions& options);
 
 /// Flat glass of the same outline in the plane z = 0.
-[[nodiscard]] geometry::Mesh makeFlatMirrorGlass(double width, double height, double cornerRadius);
+[[nodiscard]] geometry::Mesh makeFlatMirrorGlass(double width, double height);
 
 /// A bowl around a glass of the given size, open towards +z, its rim 8 mm in front of z = 0.
-[[nodiscard]] geometry::Mesh makeMirrorHousing(double width, double height, double cornerRadius,
-                                               double depth);
+[[nodiscard]] geometry::Mesh makeMirrorHousing(double width, double height, double depth);
 
 }  // namespace catoptric::scene::built_in
