@@ -122,6 +122,7 @@ int run(Options options, const std::vector<std::string>& line) {
                 [](const MethodVariant& v) { return v.method == renderer::Method::RayTrace; });
   if (options.variants.empty()) throw UsageError("--methods: there is nothing to compare with the truth");
   checkLimits(options.limits, options.variants);
+  for (const std::string& source : options.sources) checkSource(source);
   makeFolder(options.folder);
 
   const std::string command = quoteLine(line);

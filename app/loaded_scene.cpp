@@ -126,6 +126,12 @@ std::unique_ptr<LoadedScene> loadScene(const std::string& source, const SceneOpt
   return loaded;
 }
 
+void checkSource(const std::string& source) {
+  std::error_code ignored;
+  if (source != "-" && !std::filesystem::exists(source, ignored) && !isBuiltInName(source))
+    throwNotFound(source);
+}
+
 void loadEnvironment(LoadedScene& loaded, const std::string& file) {
   loaded.environment = file.empty() ? scene::makeSkyEnvironment() : scene::readEnvironment(file);
 }

@@ -30,6 +30,10 @@ struct LoadedScene {
 /// warnings.
 [[nodiscard]] std::unique_ptr<LoadedScene> loadScene(const std::string& source, const SceneOptions& options);
 
+/// Throws if there is no such file or built-in scene; for commands that take several scenes and long for
+/// each.
+void checkSource(const std::string& source);
+
 void loadEnvironment(LoadedScene& loaded, const std::string& file);
 
 /// Throws UsageError for options that contradict each other, core::Error for a camera that is not there.
