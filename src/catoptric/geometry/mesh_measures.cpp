@@ -13,12 +13,13 @@ namespace catoptric::geometry {
 namespace {
 
 constexpr double kConvexSlope = 1e-3;        // radians
+constexpr double kDivergenceShare = 0.5;     // of the bend that the vertex normals show
 constexpr std::size_t kGlobalSamples = 128;  // triangles against all vertices
 
 struct Edge {
   std::uint64_t key;  // lower and upper welded vertex
   std::uint32_t triangle;
-  std::uint32_t opposite;  // welded vertex
+  std::uint32_t opposite;  // vertex
   bool forward;            // runs from the lower to the upper vertex
 };
 
@@ -42,7 +43,7 @@ std::vector<Edge> collectEdges(const MeshView& mesh, std::span<const std::uint32
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
     for (int k = 0; k < 3; ++k) {
       const std::uint64_t a = welded[mesh.indices[i + k]], b = welded[mesh.indices[i + (k + 1) % 3]];
-      const std::uint32_t opposite = welded[mesh.indices[i + (k + 2) % 3]];
+      const std::uint32_t opposite = mesh.indices[i + (k + 2) % 3];
       if (a == b) continue;
       edges.push_back(
           {std::min(a, b) << 32 | std::max(a, b), static_cast<std::uint32_t>(i / 3), opposite, a < b});
@@ -53,13 +54,26 @@ std::vector<Edge> collectEdges(const MeshView& mesh, std::span<const std::uint32
   return edges;
 }
 
-/// Is `point` in front of the plane by more than rounding and the allowed slope? `noise` is the rounding of a
-/// coordinate; through a thin triangle it tilts the plane.
-bool isInFront(const TrianglePlane& plane, const dvec3& point, double noise) {
-  const dvec3 d = point - plane.point;
+/// Is `vertex` in front of the plane by more than rounding and the allowed slope? `noise` is the rounding of
+/// a coordinate; through a thin triangle it tilts the plane. Where the vertex normals spread from `normal` at
+/// the triangle to the vertex, the smooth surface bends back there, and a facet in front only tells that a
+/// quad was cut along the wrong diagonal.
+bool isInFront(const MeshView& mesh, const TrianglePlane& plane, const dvec3& normal, std::uint32_t vertex,
+               double noise) {
+  const dvec3 d = dvec3(mesh.positions[vertex]) - plane.point;
+  const double height = glm::dot(plane.normal, d);
+  if (height <= noise) return false;
   const double distance = glm::length(d);
-  const double tilt = kConvexSlope + 4 * noise / std::max(plane.altitude, 1e-300);
-  return glm::dot(plane.normal, d) > tilt * distance + noise;
+  const double spread = glm::dot(dvec3(mesh.normals[vertex]) - normal, d) / distance;
+  const double slope =
+      kConvexSlope + kDivergenceShare * std::max(spread, 0.0) + 4 * noise / std::max(plane.altitude, 1e-300);
+  return height > slope * distance + noise;
+}
+
+dvec3 meanNormal(const MeshView& mesh, std::size_t triangle) {
+  dvec3 sum(0);
+  for (int k = 0; k < 3; ++k) sum += dvec3(mesh.normals[mesh.indices[3 * triangle + k]]) / 3.0;
+  return sum;
 }
 
 }  // namespace
@@ -123,18 +137,22 @@ bool isConvexMesh(const MeshView& mesh) {
     if (end - i == 2) {
       const Edge &a = edges[i], &b = edges[i + 1];
       if (a.forward == b.forward) return false;
-      if (isInFront(planeOf(mesh, a.triangle), dvec3(mesh.positions[b.opposite]), noise)) return false;
-      if (isInFront(planeOf(mesh, b.triangle), dvec3(mesh.positions[a.opposite]), noise)) return false;
+      const auto bendsForward = [&](const Edge& from, const Edge& to) {
+        return isInFront(mesh, planeOf(mesh, from.triangle), dvec3(mesh.normals[from.opposite]), to.opposite,
+                         noise);
+      };
+      if (bendsForward(a, b) || bendsForward(b, a)) return false;
     }
     i = end;
   }
   // Globally, on a spread sample.
   const std::size_t samples = std::min(triangles, kGlobalSamples);
   for (std::size_t s = 0; s < samples; ++s) {
-    const TrianglePlane plane = planeOf(mesh, s * triangles / samples);
-    if (std::any_of(mesh.positions.begin(), mesh.positions.end(),
-                    [&](const vec3& p) { return isInFront(plane, dvec3(p), noise); }))
-      return false;
+    const std::size_t triangle = s * triangles / samples;
+    const TrianglePlane plane = planeOf(mesh, triangle);
+    const dvec3 normal = meanNormal(mesh, triangle);
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
+      if (isInFront(mesh, plane, normal, v, noise)) return false;
   }
   return true;
 }

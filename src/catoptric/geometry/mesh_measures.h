@@ -24,8 +24,9 @@ struct BoundingSphere {
 /// side can meet it again? Locally: across every edge the neighbour's far vertex is not in front of the
 /// triangle's plane. Globally: no vertex is in front of the planes of a spread sample of triangles (locally
 /// convex but wound up, or too gently concave per edge). "In front" means by an angle of more than 1e-3
-/// radians. Edges with more than two triangles or with two triangles of opposite winding make the surface not
-/// convex; borders are allowed.
+/// radians plus half of what the vertex normals spread over the distance: a smooth convex surface stays
+/// convex when its quads are cut along the wrong diagonals. Edges with more than two triangles or with two
+/// triangles of opposite winding make the surface not convex; borders are allowed.
 [[nodiscard]] bool isConvexMesh(const MeshView& mesh);
 
 }  // namespace catoptric::geometry
