@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF 2.0 (.gltf with files or data URIs, .glb) to Scene. tinygltf parses; our own layer validates the document
-// strictly before any byte of geometry is read (ecosystem.md, sections 2 to 4).
+// glTF 2.0 (.gltf with files or data URIs, .glb) to Scene. The whole document is validated strictly before any byte
+// of geometry is read; docs/gltf.md lists what is supported, repaired and refused.
 #pragma once
 
 #include <cstddef>
