@@ -40,7 +40,8 @@ constexpr double kLongestStep = 0.7;       // of the mesh's radius
 constexpr double kLongestMirroring = 0.5;  // of the distance eye - mirror: keeps Q' in front of the eye
 constexpr double kNearlySine = 0.05;       // a root this near is good enough to place a doubly virtual vertex
 constexpr double kOutsideTriangle = 1e-6;  // barycentric slack
-constexpr std::size_t kGrain = 512;
+constexpr double kNearPredecessor = 0.02;  // squared angle between two vertices as seen from the mirror
+constexpr std::size_t kChunk = 512;
 
 bool isFinite(const dvec3& p) {
   return std::isfinite(p.x + p.y + p.z);
@@ -168,11 +169,11 @@ SurfacePoint VirtualObjectSolver::findSeed(const SeedPixel& seed, double nearWei
 }
 
 VirtualVertex VirtualObjectSolver::solveRefined(const dvec3& scenePoint, const SeedPixel& seed,
-                                                double nearWeight) const {
+                                                double nearWeight, const SurfacePoint* start) const {
   if (mesh_->isConvex())  // nothing behind a convex mirror is reflected: spare the search
     if (const auto hiding = findHidingPoint(scenePoint, true)) return mirrorHidden(*hiding, scenePoint);
   const SearchResult found =
-      searchReflectionPoint(mesh_->triangles(), findSeed(seed, nearWeight), eye_, scenePoint,
+      searchReflectionPoint(mesh_->triangles(), start ? *start : findSeed(seed, nearWeight), eye_, scenePoint,
                             options_.newtonSteps, options_.tolerance, kLongestStep * mesh_->radius());
   const MirrorLaw& law = found.law;
   const bool isPastBoundary =
@@ -195,17 +196,22 @@ VirtualVertex VirtualObjectSolver::solve(Solver solver, const dvec3& scenePoint)
   if (!canReflect_ || !isFinite(scenePoint)) return {};
   double nearWeight;
   const dvec2 coords = computeCoords(scenePoint, nearWeight);
-  return checked(solver == Solver::Explosion ? solveExplosion(scenePoint, coords, nearWeight)
-                                             : solveRefined(scenePoint, seedMap_.at(coords), nearWeight));
+  return checked(solver == Solver::Explosion
+                     ? solveExplosion(scenePoint, coords, nearWeight)
+                     : solveRefined(scenePoint, seedMap_.at(coords), nearWeight, nullptr));
 }
 
 /// Vertices in blocks, so that the block's fetches from the seed map and from the triangles, which are
-/// scattered over more memory than the cache holds, are under way while others are computed.
+/// scattered over more memory than the cache holds, are under way while others are computed. On a convex
+/// mirror, where there is one root only, a vertex close to its predecessor starts from that one's reflection
+/// point.
 template <class Write>
 void VirtualObjectSolver::computeRefined(std::span<const vec3> scenePoints, const Write& write) const {
   constexpr std::size_t kBlock = 32;
   const SeedPixel* seeds[kBlock];
   double weights[kBlock];
+  VirtualVertex last;  // steps = 0: no reflection point
+  dvec3 lastPoint(0);
   for (std::size_t first = 0; first < scenePoints.size(); first += kBlock) {
     const std::size_t count = std::min(kBlock, scenePoints.size() - first);
     for (std::size_t i = 0; i < count; ++i) {
@@ -220,8 +226,14 @@ void VirtualObjectSolver::computeRefined(std::span<const vec3> scenePoints, cons
     }
     for (std::size_t i = 0; i < count; ++i) {
       const dvec3 point(scenePoints[first + i]);
-      write(first + i,
-            isFinite(point) ? checked(solveRefined(point, *seeds[i], weights[i])) : VirtualVertex{});
+      const dvec3 moved = point - lastPoint, away = point - last.position;
+      const bool isNear = last.steps > 0 && mesh_->isConvex() &&
+                          glm::dot(moved, moved) < kNearPredecessor * glm::dot(away, away);
+      last = isFinite(point)
+                 ? checked(solveRefined(point, *seeds[i], weights[i], isNear ? &last.at : nullptr))
+                 : VirtualVertex{};
+      lastPoint = point;
+      write(first + i, last);
     }
   }
 }
@@ -249,17 +261,24 @@ void VirtualObjectSolver::compute(Solver solver, std::span<const vec3> scenePoin
                                   std::span<vec3> reflectionPoints) const {
   assert(virtualPositions.size() == scenePoints.size() && kinds.size() == scenePoints.size());
   assert(reflectionPoints.empty() || reflectionPoints.size() == scenePoints.size());
-  core::parallelFor(scenePoints.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    const auto write = [&](std::size_t i, const VirtualVertex& vertex) {
-      const bool isUsable = vertex.kind != VertexKind::None;
-      virtualPositions[begin + i] = isUsable ? vec3(vertex.virtualPosition) : scenePoints[begin + i];
-      kinds[begin + i] = vertex.kind;
-      if (reflectionPoints.empty()) return;
-      reflectionPoints[begin + i] = isUsable ? vec3(vertex.position) : scenePoints[begin + i];
-    };
-    if (solver == Solver::Refined && canReflect_)
-      return computeRefined(scenePoints.subspan(begin, end - begin), write);
-    for (std::size_t i = begin; i < end; ++i) write(i - begin, solve(solver, dvec3(scenePoints[i])));
+  // Chunks at fixed places: a vertex starts from its predecessor, and the result must not depend on the
+  // threads.
+  const std::size_t chunks = (scenePoints.size() + kChunk - 1) / kChunk;
+  core::parallelFor(chunks, 1, [&](std::size_t firstChunk, std::size_t endChunk) {
+    for (std::size_t chunk = firstChunk; chunk < endChunk; ++chunk) {
+      const std::size_t begin = chunk * kChunk, count = std::min(kChunk, scenePoints.size() - begin);
+      const auto write = [&](std::size_t i, const VirtualVertex& vertex) {
+        const bool isUsable = vertex.kind != VertexKind::None;
+        virtualPositions[begin + i] = isUsable ? vec3(vertex.virtualPosition) : scenePoints[begin + i];
+        kinds[begin + i] = vertex.kind;
+        if (reflectionPoints.empty()) return;
+        reflectionPoints[begin + i] = isUsable ? vec3(vertex.position) : scenePoints[begin + i];
+      };
+      if (solver == Solver::Refined && canReflect_)
+        computeRefined(scenePoints.subspan(begin, count), write);
+      else
+        for (std::size_t i = 0; i < count; ++i) write(i, solve(solver, dvec3(scenePoints[begin + i])));
+    }
   });
 }
 

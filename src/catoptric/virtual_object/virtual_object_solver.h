@@ -92,8 +92,8 @@ class VirtualObjectSolver {
   [[nodiscard]] VirtualVertex solve(Solver solver, const dvec3& scenePoint) const;
   [[nodiscard]] VirtualVertex solveExplosion(const dvec3& scenePoint, const dvec2& coords,
                                              double nearWeight) const;
-  [[nodiscard]] VirtualVertex solveRefined(const dvec3& scenePoint, const SeedPixel& seed,
-                                           double nearWeight) const;
+  [[nodiscard]] VirtualVertex solveRefined(const dvec3& scenePoint, const SeedPixel& seed, double nearWeight,
+                                           const SurfacePoint* start) const;
   template <class Write>
   void computeRefined(std::span<const vec3> scenePoints, const Write& write) const;
   [[nodiscard]] dvec2 computeCoords(const dvec3& scenePoint, double& nearWeight) const;
