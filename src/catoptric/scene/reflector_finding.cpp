@@ -184,26 +184,43 @@ struct Candidate {
   ReflectorShape shape;
   geometry::FitDeviation deviation;
   core::Plane plane;
+  bool isInside = false;  // normals point to the hollow side
 };
 
 std::optional<Candidate> fitShape(ReflectorShape shape, const geometry::MeshView& mesh) {
   switch (shape) {
     case ReflectorShape::Plane:
-      if (const auto fit = geometry::fitPlane(mesh)) return Candidate{shape, fit->deviation, fit->plane};
+      if (const auto fit = geometry::fitPlane(mesh))
+        return Candidate{shape, fit->deviation, fit->plane, false};
       break;
     case ReflectorShape::Sphere:
-      if (const auto fit = geometry::fitSphere(mesh)) return Candidate{shape, fit->deviation, {}};
+      if (const auto fit = geometry::fitSphere(mesh))
+        return Candidate{shape, fit->deviation, {}, fit->isInside};
       break;
     case ReflectorShape::Cylinder:
-      if (const auto fit = geometry::fitCylinder(mesh)) return Candidate{shape, fit->deviation, {}};
+      if (const auto fit = geometry::fitCylinder(mesh))
+        return Candidate{shape, fit->deviation, {}, fit->isInside};
       break;
     case ReflectorShape::Cone:
-      if (const auto fit = geometry::fitCone(mesh)) return Candidate{shape, fit->deviation, {}};
+      if (const auto fit = geometry::fitCone(mesh))
+        return Candidate{shape, fit->deviation, {}, fit->isInside};
       break;
     case ReflectorShape::Mesh:
       break;
   }
   return std::nullopt;
+}
+
+/// Do all triangles turn their front to where their normals point?
+bool frontsFollowNormals(const geometry::MeshView& mesh) {
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const auto [a, b, c] = std::array{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
+    const dvec3 p(mesh.positions[a]);
+    const dvec3 front = glm::cross(dvec3(mesh.positions[b]) - p, dvec3(mesh.positions[c]) - p);
+    if (glm::dot(front, dvec3(mesh.normals[a]) + dvec3(mesh.normals[b]) + dvec3(mesh.normals[c])) <= 0)
+      return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -309,8 +326,12 @@ void measureReflector(Reflector& reflector, const geometry::MeshView& mesh,
     const double angleLimit =
         shape == ReflectorShape::Plane ? options.normalTolerance : kCurvedNormalTolerance;
     const auto fit = fitShape(shape, mesh);
-    if (fit && fit->deviation.distance <= distanceLimit && fit->deviation.angleRadians <= angleLimit)
-      return accept(*fit);
+    if (!fit || fit->deviation.distance > distanceLimit || fit->deviation.angleRadians > angleLimit) continue;
+    accept(*fit);
+    // The outside of a recognised shape is convex, whatever rounding does to the slivers at a sphere's poles.
+    if (shape != ReflectorShape::Plane && !fit->isInside && frontsFollowNormals(mesh))
+      reflector.isConvex = true;
+    return;
   }
 }
 
