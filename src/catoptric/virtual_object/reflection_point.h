@@ -177,6 +177,7 @@ struct SearchResult {
                                                         SurfacePoint at, const dvec3& eye, const dvec3& point,
                                                         int maxSteps, double tolerance, double longestStep) {
   constexpr double kShorter = 0.35, kLeastDamping = 0.02;
+  constexpr double kTouching = 1e-12;  // the point lies on the mirror, where the law has no meaning
   SearchResult result;
   SurfacePoint lastGood = at;
   dvec2 lastStep(0);
@@ -189,7 +190,8 @@ struct SearchResult {
       result.converged = true;
       return result;
     }
-    if (result.steps >= maxSteps) return result;
+    if (result.steps >= maxSteps || !(result.law.distancePoint > kTouching * result.law.distanceEye))
+      return result;
     const double merit = result.law.squaredMerit();
     dvec2 step;
     if (merit < lastMerit || damping < kLeastDamping) {

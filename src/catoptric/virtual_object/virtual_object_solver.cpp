@@ -184,7 +184,7 @@ VirtualVertex VirtualObjectSolver::solveRefined(const dvec3& scenePoint, const S
   if (found.converged) return {virtualPosition, law.position, found.at, found.steps, kind};
 
   const bool isOnSurface = law.distancePoint <= kOnSurface * mesh_->radius();
-  if (isOnSurface && glm::dot(law.normal, law.toEye) > 0)
+  if (isOnSurface && glm::dot(law.normal, eye_ - law.position) > 0)
     return {scenePoint, law.position, found.at, found.steps, kind};
   if (const auto hiding = findHidingPoint(scenePoint, false)) return mirrorHidden(*hiding, scenePoint);
   // Not hidden either: only a longer skirt would reflect it, or it is within a map pixel of the shadow.
