@@ -2,6 +2,8 @@
 // Small scenes put together by hand, for the tests of the ray tracer.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <memory>
 #include <string>
@@ -110,5 +112,28 @@ struct TracedTestScene {
     return tracer->trace(frame(width, height), options);
   }
 };
+
+inline void expectColor(const vec4& actual, const vec3& expected, float tolerance = 1e-6f) {
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(actual[i], expected[i], tolerance) << "channel " << i;
+  EXPECT_EQ(actual.a, 1);
+}
+
+/// A quad of 2 x 2 around the origin facing +z.
+inline scene::MeshPrimitive makeFacingQuad(float z = 0, float repeat = 1) {
+  return makeQuad({-1, -1, z}, {2, 0, 0}, {0, 2, 0}, repeat);
+}
+
+/// Looks along -z from z = 3 at the origin; the picture's centre pixel looks straight on.
+inline void lookAtOrigin(TracedTestScene& t) {
+  t.camera.eye = {0, 0, 3};
+  t.camera.target = {0, 0, 0};
+}
+
+inline vec4 centreOf(const TraceResult& result) {
+  return result.radiance.at(result.radiance.width() / 2, result.radiance.height() / 2);
+}
+inline core::SeenPixel centreSeen(const TraceResult& result) {
+  return result.seen.at(result.seen.width() / 2, result.seen.height() / 2);
+}
 
 }  // namespace catoptric::reference

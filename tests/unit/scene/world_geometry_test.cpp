@@ -9,7 +9,6 @@
 #include <set>
 
 #include "catoptric/core/error.h"
-#include "catoptric/scene/reflector_finding.h"
 #include "mirror_meshes.h"
 
 namespace catoptric::scene {
@@ -198,55 +197,6 @@ TEST(WorldGeometry, FlattenedTransformKeepsFiniteNormals) {
   const WorldGeometry world = makeWorldGeometry(
       makeScene(makeSphere(16, 8), makeMirrorMaterial(), glm::scale(dmat4(1), dvec3(1, 0, 1))));
   expectConsistent(world);
-}
-
-TEST(WorldGeometry, RuleOfMaterials) {
-  const auto decide = [](const Material& material, const ReflectorHint& node = {}) {
-    Scene scene = makeScene(makeFlatShadedQuad(), material);
-    return ReflectorRule(scene, {}).decide(0, node);
-  };
-  Material material;
-  EXPECT_FALSE(decide(material).isReflector) << "glTF's default is rough";
-  material.roughness = 0.05f;
-  EXPECT_TRUE(decide(material).isReflector);
-  material.metallic = 0.89f;
-  EXPECT_FALSE(decide(material).isReflector);
-  material.clearcoat = 0.5f;
-  EXPECT_TRUE(decide(material).isReflector);
-  EXPECT_EQ(decide(material).clearcoat, 0.5f);
-  EXPECT_EQ(decide(material).reflectivity, 0);
-  material.clearcoatRoughness = 0.2f;
-  EXPECT_FALSE(decide(material).isReflector);
-  material.hint.reflector = true;
-  material.hint.reflectivity = 0.8f;
-  EXPECT_TRUE(decide(material).isReflector);
-  EXPECT_EQ(decide(material).reflectivity, 0.8f);
-  ReflectorHint node;
-  node.reflector = false;
-  EXPECT_FALSE(decide(material, node).isReflector) << "the node beats the material";
-  material.hint = {};
-  node.reflector = true;
-  node.reflectivity = 0.3f;
-  EXPECT_EQ(decide(material, node).reflectivity, 0.3f);
-  material = makeMirrorMaterial();
-  material.hint.reflector = false;
-  EXPECT_FALSE(decide(material).isReflector);
-  material = makeMirrorMaterial();
-  material.unlit = true;
-  EXPECT_FALSE(decide(material).isReflector);
-}
-
-TEST(WorldGeometry, TexturedRoughnessMustHoldEverywhere) {
-  Material material;
-  material.metallicRoughnessTexture.texture = 0;
-  Scene scene = makeScene(makeFlatShadedQuad(), material);
-  scene.textures.resize(1);
-  scene.textures[0].image = core::ImageRgba8(16, 16, {0, 5, 255, 255});
-  EXPECT_TRUE(ReflectorRule(scene, {}).decide(0, {}).isReflector);
-  for (int x = 0; x < 16; ++x) scene.textures[0].image.at(x, 0) = {0, 60, 255, 255};
-  const ReflectorDecision decision = ReflectorRule(scene, {}).decide(0, {});
-  EXPECT_FALSE(decision.isReflector);
-  EXPECT_NE(decision.reason.find("varies"), std::string::npos) << decision.reason;
 }
 
 TEST(WorldGeometry, NormalMappedMirrorIsNoPlane) {
