@@ -98,6 +98,18 @@ TEST(RayTracer, OddNormalsAndGrazingViewsGiveNoNan) {
   }
 }
 
+TEST(RayTracer, TouchingTheMirrorIsSeenInIt) {
+  // A ball that rests on a mirror floor: its image touches it.
+  TracedTestScene t;
+  t.add(makeQuad({-50, 0, 50}, {100, 0, 0}, {0, 0, -100}), makeMirror(), "floor");
+  t.add(makeBall(128, 64), makeUnlit({1, 0, 0}), "ball", glm::translate(dmat4(1), dvec3(0, 1, 0)));
+  t.camera.eye = {0, 0.3, 6};
+  t.camera.target = {0, 0, 0};
+  t.finish();
+  const TraceResult result = t.trace(65, 65);
+  for (int y = 24; y < 41; ++y) EXPECT_EQ(result.seen.at(32, y).object, 1u) << y;
+}
+
 TEST(RayTracer, NonFiniteVerticesAreLeftOut) {
   TracedTestScene t;
   t.add(makeFacingQuad(), makeUnlit({0, 1, 0}), "quad");

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which materials are mirrors.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "catoptric/scene/scene.h"
+#include "catoptric/scene/world_geometry.h"
+
+namespace catoptric::scene {
+
+/// Is it a mirror, by which lobe, and why (or why not).
+struct ReflectorDecision {
+  bool isReflector = false;
+  float reflectivity = 0;  ///< Surface::reflectivity: the material's own lobe
+  float clearcoat = 0;     ///< Surface::clearcoat: mirror by clearcoat only
+  std::string reason;      ///< "material: metallic 1, roughness 0"
+};
+
+/// Decides for materials as they are used by instances; looks at each texture once.
+///
+/// In this order: `extras.catoptric` of the node, of the material, then the rule: metallic and roughness
+/// within `options` (with a texture: their means, and all but the 2 % most deviating texels as well), or a
+/// smooth clearcoat. Unlit materials are never mirrors.
+class ReflectorRule {
+ public:
+  ReflectorRule(const Scene& scene, const ReflectorOptions& options);
+
+  /// `material` as in Part::material.
+  [[nodiscard]] const ReflectorDecision& decideByMaterial(int material) const;
+  [[nodiscard]] ReflectorDecision decide(int material, const ReflectorHint& instanceHint) const;
+
+ private:
+  const Scene& scene_;
+  std::vector<ReflectorDecision> byMaterial_;  // the rule alone, one for each material and one for none
+};
+
+}  // namespace catoptric::scene
