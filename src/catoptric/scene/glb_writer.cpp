@@ -276,20 +276,21 @@ class GlbBuilder {
   }
 
   void finishScene() {
-    Json root;
+    Json root = Json::object();
     if (!scene_.name.empty()) root["name"] = scene_.name;
-    for (std::size_t i = 0; i < document_["nodes"].size(); ++i) root["nodes"].push_back(i);
+    const std::size_t nodeCount = document_.contains("nodes") ? document_["nodes"].size() : 0;
+    for (std::size_t i = 0; i < nodeCount; ++i) root["nodes"].push_back(i);
     document_["scenes"] = Json::array({root});
     document_["scene"] = 0;
     for (const std::string& name : used_) document_["extensionsUsed"].push_back(name);
     binary_.resize((binary_.size() + 3) / 4 * 4);
-    document_["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
+    if (!binary_.empty()) document_["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
   }
 
   std::vector<std::byte> assemble() const {
     std::string text = document_.dump();
     text.resize((text.size() + 3) / 4 * 4, ' ');
-    const std::size_t total = 12 + 8 + text.size() + 8 + binary_.size();
+    const std::size_t total = 12 + 8 + text.size() + (binary_.empty() ? 0 : 8 + binary_.size());
     std::vector<std::byte> file;
     file.reserve(total);
     const auto addWord = [&](std::uint32_t word) {  // little-endian on every machine
@@ -302,6 +303,7 @@ class GlbBuilder {
     addWord(0x4E4F534A);  // "JSON"
     const auto textBytes = std::as_bytes(std::span<const char>(text));
     file.insert(file.end(), textBytes.begin(), textBytes.end());
+    if (binary_.empty()) return file;
     addWord(std::uint32_t(binary_.size()));
     addWord(0x004E4942);  // "BIN"
     file.insert(file.end(), binary_.begin(), binary_.end());

@@ -62,7 +62,7 @@ void addTable(SceneBuilder& builder) {
 
 void addSpheres(SceneBuilder& builder) {
   for (const ChromeSphere& s : kSpheres)
-    builder.place(s.name, geometry::makeIcosphere(s.radius, s.radius > 0.15 ? 24 : 20),
+    builder.place(s.name, geometry::makeIcosphere(s.radius, s.radius > 0.15 ? 25 : 23),
                   builder.mirror(std::string(s.name) + " chrome", s.tint),
                   geometry::moveBy({s.x, kTableHeight + s.radius + 0.0005, s.z}));
 }

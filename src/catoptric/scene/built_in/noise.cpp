@@ -7,33 +7,44 @@ namespace catoptric::scene::built_in {
 namespace {
 
 int wrap(int i, int period) {
-  return ((i % period) + period) % period;
+  if (unsigned(i) < unsigned(period)) return i;  // nearly always: saves a division
+  const int rest = i % period;
+  return rest < 0 ? rest + period : rest;
+}
+
+int next(int i, int period) {
+  return i + 1 == period ? 0 : i + 1;
 }
 
 double fade(double t) {
   return t * t * t * (t * (t * 6 - 15) + 10);
 }
 
-}  // namespace
-
-double hashToUnit(int x, int y, std::uint32_t seed) {
+inline std::uint32_t hash(int x, int y, std::uint32_t seed) {
   std::uint32_t h = seed * 0x9E3779B9u ^ std::uint32_t(x) * 0x85EBCA6Bu ^ std::uint32_t(y) * 0xC2B2AE35u;
   h ^= h >> 16;
   h *= 0x7FEB352Du;
   h ^= h >> 15;
   h *= 0x846CA68Bu;
-  h ^= h >> 16;
-  return double(h) / 4294967296.0;
+  return h ^ (h >> 16);
+}
+
+constexpr double kToUnit = 1.0 / 4294967296.0;
+
+}  // namespace
+
+double hashToUnit(int x, int y, std::uint32_t seed) {
+  return hash(x, y, seed) * kToUnit;
 }
 
 double periodicNoise(const dvec2& p, const ivec2& period, std::uint32_t seed) {
-  const dvec2 cell = glm::floor(p);
-  const double fx = fade(p.x - cell.x), fy = fade(p.y - cell.y);
-  const int x0 = wrap(int(cell.x), period.x), x1 = wrap(x0 + 1, period.x);
-  const int y0 = wrap(int(cell.y), period.y), y1 = wrap(y0 + 1, period.y);
-  const double top = glm::mix(hashToUnit(x0, y0, seed), hashToUnit(x1, y0, seed), fx);
-  const double bottom = glm::mix(hashToUnit(x0, y1, seed), hashToUnit(x1, y1, seed), fx);
-  return glm::mix(top, bottom, fy);
+  const double cellX = std::floor(p.x), cellY = std::floor(p.y);
+  const double fx = fade(p.x - cellX), fy = fade(p.y - cellY);
+  const int x0 = wrap(int(cellX), period.x), x1 = next(x0, period.x);
+  const int y0 = wrap(int(cellY), period.y), y1 = next(y0, period.y);
+  const double a = hash(x0, y0, seed), b = hash(x1, y0, seed), c = hash(x0, y1, seed), d = hash(x1, y1, seed);
+  const double top = a + (b - a) * fx, bottom = c + (d - c) * fx;
+  return (top + (bottom - top) * fy) * kToUnit;
 }
 
 double fractalNoise(const dvec2& p, const ivec2& period, int octaves, std::uint32_t seed) {

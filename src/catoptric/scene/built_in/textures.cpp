@@ -101,7 +101,7 @@ Pattern woodPlanks(const vec3& light, const vec3& dark, int boards, std::uint32_
   return [=](dvec2 uv) {
     const int board = floorInt(uv.y * boards);
     const double across = uv.y * boards - board;
-    const double shift = std::floor(hashToUnit(board, 1, seed) * 8) / 8;
+    const double shift = (std::floor(hashToUnit(board, 1, seed) * 8) + 0.5) / 8;  // no joint at the seam
     const double along = uv.x + shift;
     const int piece = floorInt(along * 2) % 2;  // two boards to a repeat, ends staggered by `shift`
     const double tone = hashToUnit(board, piece + 2, seed);
