@@ -178,7 +178,10 @@ struct SearchResult {
                                                         int maxSteps, double tolerance, double longestStep) {
   constexpr double kShorter = 0.35, kLeastDamping = 0.02;
   constexpr double kTouching = 1e-12;  // the point lies on the mirror, where the law has no meaning
+  constexpr double kFarOutside = 0.5;
+  constexpr int kMostStepsOutside = 3;
   SearchResult result;
+  int stepsOutside = 0;
   SurfacePoint lastGood = at;
   dvec2 lastStep(0);
   double lastMerit = 1e300, damping = 1.0;
@@ -191,6 +194,9 @@ struct SearchResult {
       return result;
     }
     if (result.steps >= maxSteps || !(result.law.distancePoint > kTouching * result.law.distanceEye))
+      return result;
+    // Far past the last edge the extrapolated mirror is no guide; such a point is far from being reflected.
+    if (std::min({at.u, at.v, 1.0 - at.u - at.v}) < -kFarOutside && ++stepsOutside > kMostStepsOutside)
       return result;
     const double merit = result.law.squaredMerit();
     dvec2 step;

@@ -37,7 +37,7 @@
 namespace catoptric::virtual_object {
 namespace {
 
-constexpr double kSagFactor = 0.125;
+constexpr double kSagFactor = 0.06;
 constexpr std::size_t kSamples = 64;
 constexpr double kBudgetStep = 1.35;
 
