@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "catoptric/scene/glb_writer.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <span>
 
 #include "catoptric/core/image_io.h"
+#include "catoptric/scene/glb_material.h"
 
 namespace catoptric::scene {
 namespace {
@@ -18,21 +16,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int kFloat = 5126, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementArrayBuffer = 34963;
-
-/// The double whose shortest decimal is the float's shortest decimal: 0.9f is written as 0.9.
-double number(float value) {
-  return std::stod(fmt::format("{}", value));
-}
-
-Json numbers(std::span<const float> values) {
-  Json array = Json::array();
-  for (float v : values) array.push_back(number(v));
-  return array;
-}
-
-Json vectorJson(const vec3& v) {
-  return numbers(std::span<const float>(&v.x, 3));
-}
 
 bool isOpaque(const core::ImageRgba8& image) {
   return std::all_of(image.pixels().begin(), image.pixels().end(),
@@ -47,7 +30,7 @@ class GlbBuilder {
     document_["asset"] = {{"version", "2.0"}, {"generator", options_.generator}};
     for (const Texture& texture : scene_.textures) addTexture(texture);
     for (const Material& material : scene_.materials)
-      document_["materials"].push_back(materialJson(material));
+      document_["materials"].push_back(makeMaterialJson(material, used_));
     for (const Mesh& mesh : scene_.meshes) addMesh(mesh);
     for (const Instance& instance : scene_.instances) addInstance(instance);
     for (const Light& light : scene_.lights) addLight(light);
@@ -115,86 +98,6 @@ class GlbBuilder {
         {{"source", document_["images"].size() - 1}, {"sampler", addSampler(texture)}});
   }
 
-  Json slotJson(const TextureSlot& slot) {
-    Json json = {{"index", slot.texture}};
-    if (slot.uvSet != 0) json["texCoord"] = slot.uvSet;
-    if (slot.uvFromMesh == mat3(1.0f)) return json;
-    // uvFromMesh = move * turn * scale, as the extension composes it.
-    const vec2 columnU(slot.uvFromMesh[0]), columnV(slot.uvFromMesh[1]);
-    const float rotation = std::atan2(-columnU.y, columnU.x);
-    json["extensions"]["KHR_texture_transform"] = {
-        {"offset", {number(slot.uvFromMesh[2].x), number(slot.uvFromMesh[2].y)}},
-        {"rotation", number(rotation == 0.0f ? 0.0f : rotation)},
-        {"scale", {number(glm::length(columnU)), number(glm::length(columnV))}}};
-    used_.insert("KHR_texture_transform");
-    return json;
-  }
-
-  void setExtension(Json& json, const char* name, Json value) {
-    json["extensions"][name] = std::move(value);
-    used_.insert(name);
-  }
-
-  Json hintJson(const ReflectorHint& hint) {
-    Json json;
-    if (hint.reflector) json["reflector"] = *hint.reflector;
-    if (hint.shape) json["shape"] = *hint.shape;
-    if (hint.reflectivity) json["reflectivity"] = number(*hint.reflectivity);
-    if (hint.shell) json["shell"] = *hint.shell;
-    return json;
-  }
-
-  void setSurface(Json& json, const Material& m) {
-    Json& surface = json["pbrMetallicRoughness"];
-    surface["baseColorFactor"] = numbers(std::span<const float>(&m.baseColor.x, 4));
-    surface["metallicFactor"] = number(m.metallic);
-    surface["roughnessFactor"] = number(m.roughness);
-    if (m.baseColorTexture.texture >= 0) surface["baseColorTexture"] = slotJson(m.baseColorTexture);
-    if (m.metallicRoughnessTexture.texture >= 0)
-      surface["metallicRoughnessTexture"] = slotJson(m.metallicRoughnessTexture);
-    if (m.normalTexture.texture >= 0) {
-      json["normalTexture"] = slotJson(m.normalTexture);
-      json["normalTexture"]["scale"] = number(m.normalScale);
-    }
-    if (m.occlusionTexture.texture >= 0) {
-      json["occlusionTexture"] = slotJson(m.occlusionTexture);
-      json["occlusionTexture"]["strength"] = number(m.occlusionStrength);
-    }
-  }
-
-  void setEmission(Json& json, const Material& m) {
-    if (m.emissiveTexture.texture >= 0) json["emissiveTexture"] = slotJson(m.emissiveTexture);
-    if (m.emissive == vec3(0.0f)) return;
-    const float strength = std::max({m.emissive.x, m.emissive.y, m.emissive.z, 1.0f});
-    json["emissiveFactor"] = vectorJson(m.emissive / strength);
-    if (strength > 1)
-      setExtension(json, "KHR_materials_emissive_strength", {{"emissiveStrength", number(strength)}});
-  }
-
-  Json materialJson(const Material& m) {
-    Json json;
-    if (!m.name.empty()) json["name"] = m.name;
-    setSurface(json, m);
-    setEmission(json, m);
-    if (m.alphaMode != AlphaMode::Opaque)
-      json["alphaMode"] = m.alphaMode == AlphaMode::Mask ? "MASK" : "BLEND";
-    if (m.alphaMode == AlphaMode::Mask) json["alphaCutoff"] = number(m.alphaCutoff);
-    if (m.doubleSided) json["doubleSided"] = true;
-    if (m.unlit) setExtension(json, "KHR_materials_unlit", Json::object());
-    if (m.ior != 1.5f) setExtension(json, "KHR_materials_ior", {{"ior", number(m.ior)}});
-    if (m.specular != 1.0f || m.specularColor != vec3(1.0f))
-      setExtension(
-          json, "KHR_materials_specular",
-          {{"specularFactor", number(m.specular)}, {"specularColorFactor", vectorJson(m.specularColor)}});
-    if (m.clearcoat > 0)
-      setExtension(json, "KHR_materials_clearcoat",
-                   {{"clearcoatFactor", number(m.clearcoat)},
-                    {"clearcoatRoughnessFactor", number(m.clearcoatRoughness)}});
-    const Json hint = hintJson(m.hint);
-    if (!hint.is_null()) json["extras"]["catoptric"] = hint;
-    return json;
-  }
-
   Json primitiveJson(const MeshPrimitive& primitive) {
     assert(!primitive.positions.empty() && !primitive.indices.empty());
     Json json;
@@ -229,7 +132,7 @@ class GlbBuilder {
       for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row) {
           const float value = float(worldFromNode[column][row]);
-          matrix.push_back(number(value == 0.0f ? 0.0f : value));  // no "-0.0"
+          matrix.push_back(makeNumber(value == 0.0f ? 0.0f : value));  // no "-0.0"
         }
       node["matrix"] = matrix;
     }
@@ -239,7 +142,7 @@ class GlbBuilder {
   void addInstance(const Instance& instance) {
     Json node = {{"mesh", instance.mesh}};
     if (!instance.name.empty()) node["name"] = instance.name;
-    const Json hint = hintJson(instance.hint);
+    const Json hint = makeHintJson(instance.hint);
     if (!hint.is_null()) node["extras"]["catoptric"] = hint;
     addNode(std::move(node), instance.worldFromMesh);
   }
@@ -248,16 +151,16 @@ class GlbBuilder {
     constexpr const char* kTypes[] = {"directional", "point", "spot"};  // in the order of LightType
     const float intensity = std::max({light.color.x, light.color.y, light.color.z, 1e-6f});
     Json json = {{"type", kTypes[std::size_t(light.type)]},
-                 {"color", vectorJson(light.color / intensity)},
-                 {"intensity", number(intensity)}};
-    if (light.range > 0 && light.type != LightType::Directional) json["range"] = number(light.range);
+                 {"color", makeVectorJson(light.color / intensity)},
+                 {"intensity", makeNumber(intensity)}};
+    if (light.range > 0 && light.type != LightType::Directional) json["range"] = makeNumber(light.range);
     if (light.type == LightType::Spot)
-      json["spot"] = {{"innerConeAngle", number(light.innerConeRadians)},
-                      {"outerConeAngle", number(light.outerConeRadians)}};
+      json["spot"] = {{"innerConeAngle", makeNumber(light.innerConeRadians)},
+                      {"outerConeAngle", makeNumber(light.outerConeRadians)}};
     used_.insert("KHR_lights_punctual");
     Json& lights = document_["extensions"]["KHR_lights_punctual"]["lights"];
     lights.push_back(json);
-    const std::string name = fmt::format("light {}", lights.size() - 1);
+    const std::string name = "light " + std::to_string(lights.size() - 1);
     const Json node = {{"name", name},
                        {"extensions", {{"KHR_lights_punctual", {{"light", lights.size() - 1}}}}}};
     const dvec3 direction = glm::normalize(dvec3(light.direction));
@@ -270,7 +173,7 @@ class GlbBuilder {
     document_["cameras"].push_back(
         {{"type", "perspective"},
          {"name", camera.name},
-         {"perspective", {{"yfov", number(float(camera.fovYRadians))}, {"znear", 0.01}}}});
+         {"perspective", {{"yfov", makeNumber(float(camera.fovYRadians))}, {"znear", 0.01}}}});
     const Json node = {{"name", camera.name}, {"camera", document_["cameras"].size() - 1}};
     addNode(node, glm::inverse(glm::lookAt(camera.eye, camera.target, camera.up)));
   }
@@ -314,7 +217,7 @@ class GlbBuilder {
   const GlbOptions& options_;
   Json document_;
   std::vector<std::byte> binary_;
-  std::set<std::string> used_;
+  ExtensionNames used_;
 };
 
 }  // namespace
