@@ -70,6 +70,7 @@ std::string hintFor(std::string_view name) {
 std::span<const BuiltInScene> builtInScenes() {
   static const std::vector<BuiltInScene> scenes = [] {
     std::vector<BuiltInScene> list;
+    list.reserve(kRows.size());
     for (const Row& row : kRows) list.push_back(row.scene);
     return list;
   }();

@@ -16,7 +16,6 @@
 namespace catoptric::scene::built_in {
 namespace {
 
-using geometry::makeQuad;
 using geometry::Mesh;
 
 constexpr double kRoadHalf = 6.0, kLane = 3.5, kRoadFrom = -150, kRoadTo = 150, kTile = 12;
