@@ -83,7 +83,7 @@ void writeReport(const Options& options, const std::vector<Comparison>& comparis
   core::writeFileAtomically(folder / "report.json", serialise(document));
   core::writeFileAtomically(folder / "index.html", makeComparisonPage(comparisons, document, command));
   if (options.output.json != "-")
-    printData(formatTable(makeRows(comparisons), usesColour(stdout)) +
+    printData(formatTable(makeRows(comparisons), usesColour(stdout), 2) +
               "\npictures, error maps and this table: " + (folder / "index.html").string() +
               "\nall figures: " + (folder / "report.json").string() + "\n");
   writeDocument(options.output.json, document);

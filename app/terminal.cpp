@@ -80,7 +80,8 @@ bool usesColour(std::FILE* stream) {
          std::strcmp(terminal, "dumb") != 0 && isatty(fileno(stream)) != 0;
 }
 
-std::string formatTable(const std::vector<std::vector<std::string>>& rows, bool colour) {
+std::string formatTable(const std::vector<std::vector<std::string>>& rows, bool colour,
+                        std::size_t leftColumns) {
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()));
@@ -92,7 +93,7 @@ std::string formatTable(const std::vector<std::vector<std::string>>& rows, bool 
     for (std::size_t i = 0; i < rows[r].size(); ++i) {
       const std::string cell = withoutControlCharacters(rows[r][i]);
       const std::string padding(widths[i] - widthOf(cell), ' ');
-      line += (i == 0 ? "" : "  ") + (i == 0 ? cell + padding : padding + cell);
+      line += (i == 0 ? "" : "  ") + (i < leftColumns ? cell + padding : padding + cell);
     }
     line.erase(line.find_last_not_of(' ') + 1);
     text += (r == 0 && colour ? "\033[1m" + line + "\033[0m" : line) + "\n";

@@ -28,7 +28,9 @@ void printData(std::string_view text);
 /// Names in a file may hold anything; a terminal must not obey it.
 [[nodiscard]] std::string withoutControlCharacters(std::string text);
 
-/// Columns side by side; the first row is the heading, the first column is flush left, the others right.
-[[nodiscard]] std::string formatTable(const std::vector<std::vector<std::string>>& rows, bool colour = false);
+/// Columns side by side; the first row is the heading, the first `leftColumns` columns are flush
+/// left, the others right.
+[[nodiscard]] std::string formatTable(const std::vector<std::vector<std::string>>& rows, bool colour = false,
+                                      std::size_t leftColumns = 1);
 
 }  // namespace catoptric::app

@@ -18,15 +18,17 @@ struct DisplacementStatistics {
 };
 
 struct DisplacementResult {
-  core::Image<float> displacementPx;        ///< -1 where the pixel is no mirror pixel
-  DisplacementStatistics mirrorPixels;      ///< all mirror pixels of the method
-  DisplacementStatistics objectPixels;      ///< those where method or truth shows neither sky nor shell
-  double falseCoverage = 0;   ///< share of mirror pixels that show something where the truth shows the background
+  core::Image<float> displacementPx;    ///< -1 where the pixel is no mirror pixel
+  DisplacementStatistics mirrorPixels;  ///< all mirror pixels of the method
+  DisplacementStatistics objectPixels;  ///< those where method or truth shows neither sky nor shell
+  double falseCoverage =
+      0;  ///< share of mirror pixels that show something where the truth shows the background
   double missedCoverage = 0;  ///< share that show the background where the truth shows something
 };
 
 /// Both images have the same size and camera; `footprints` belong to the truth.
-[[nodiscard]] DisplacementResult computeDisplacement(const core::SeenImage& method, const core::SeenImage& truth,
+[[nodiscard]] DisplacementResult computeDisplacement(const core::SeenImage& method,
+                                                     const core::SeenImage& truth,
                                                      const core::FootprintImage& footprints);
 
 }  // namespace catoptric::metrics
