@@ -57,25 +57,33 @@ struct Limits {
   double medianPx, within1, lost, objectsWithin1, objectsLost;
 };
 
-void expectWithin(const TestWorld& world, const scene::CameraFrame& camera, const std::string& name,
-                  const Limits& limits) {
-  const HarnessResult r = measureReflection(world, camera, Solver::Refined, {}, name);
+HarnessResult report(const HarnessResult& r, const std::string& name) {
   std::printf(
-      "%-16s %6zu tri %6zu vert %6zu drawn %5.1f ms | mirror %zu px: median %.3f p95 %.3f <=1 %.4f lost %.4f "
+      "%-20s %6zu tri %6zu vert %6zu drawn %5.1f ms | mirror %zu px: median %.3f p95 %.3f <=1 %.4f lost %.4f "
       "| "
       "objects %zu px: median %.3f p95 %.3f <=1 %.4f lost %.4f\n",
       name.c_str(), r.triangles, r.vertices, r.drawn, r.solveSeconds * 1e3, r.mirror.pixels,
       r.mirror.medianPx, r.mirror.p95Px, r.mirror.within1, r.mirror.lost, r.objects.pixels,
       r.objects.medianPx, r.objects.p95Px, r.objects.within1, r.objects.lost);
-  EXPECT_GT(r.mirror.pixels, 50000u);
-  EXPECT_GT(r.objects.pixels, 2000u);
-  EXPECT_LE(r.mirror.medianPx, limits.medianPx);
-  EXPECT_LE(r.objects.medianPx, limits.medianPx);
-  EXPECT_GE(r.mirror.within1, limits.within1);
-  EXPECT_LE(r.mirror.lost, limits.lost);
-  EXPECT_GE(r.objects.within1, limits.objectsWithin1);
-  EXPECT_LE(r.objects.lost, limits.objectsLost);
+  return r;
 }
+
+bool isWithin(const HarnessResult& r, const Limits& limits) {
+  return r.mirror.medianPx <= limits.medianPx && r.objects.medianPx <= limits.medianPx &&
+         r.mirror.within1 >= limits.within1 && r.mirror.lost <= limits.lost &&
+         r.objects.within1 >= limits.objectsWithin1 && r.objects.lost <= limits.objectsLost;
+}
+
+void expectWithin(const TestWorld& world, const scene::CameraFrame& camera, const std::string& name,
+                  const Limits& limits) {
+  const HarnessResult r = report(measureReflection(world, camera, Solver::Refined, {}, name), name);
+  EXPECT_GT(r.mirror.pixels, 10000u);
+  EXPECT_GT(r.objects.pixels, 1000u);
+  EXPECT_TRUE(isWithin(r, limits));
+}
+
+// What is lost are strips one pixel wide at the rim, whose footprint the harness cannot measure.
+constexpr Limits kLimits{0.15, 0.99, 0.004, 0.985, 0.008};
 
 TestWorld makeSphereWorld() {
   TestWorld world(geometry::transformed(geometry::makeIcosphere(0.5, 24), geometry::moveBy({0, 0.5, 0})));
@@ -88,15 +96,17 @@ TestWorld makeSphereWorld() {
   return world;
 }
 
+/// The sphere is 700 px wide.
+scene::CameraFrame sphereCamera(int width = 960, int height = 720) {
+  return cameraAt({0.4, 0.9, 2.6}, {0, 0.5, 0}, 0.385, width, height);
+}
+
 TEST(Picture, sphereInARoom) {
-  // The sphere is 700 px wide.
-  expectWithin(makeSphereWorld(), cameraAt({0.4, 0.9, 2.6}, {0, 0.5, 0}, 0.385), "sphere",
-               {0.1, 0.98, 0.01, 0.98, 0.01});
+  expectWithin(makeSphereWorld(), sphereCamera(), "sphere", kLimits);
 }
 
 TEST(Picture, sphereSeenFromNear) {
-  expectWithin(makeSphereWorld(), cameraAt({0.2, 1.1, 0.9}, {0, 0.5, 0}, 1.2), "sphere-near",
-               {0.1, 0.98, 0.01, 0.98, 0.01});
+  expectWithin(makeSphereWorld(), cameraAt({0.2, 1.1, 0.9}, {0, 0.5, 0}, 1.2), "sphere-near", kLimits);
 }
 
 TEST(Picture, cylinderSideStandingOnTheFloor) {
@@ -108,8 +118,7 @@ TEST(Picture, cylinderSideStandingOnTheFloor) {
   world.add(boxAt({0.2, 1.0, 0.2}, {-0.45, 0.5, 0.15}), false);
   world.add(boxAt({0.1, 0.1, 0.1}, {0.05, 0.05, 0.37}), false);
   world.add(boxAt({0.5, 1.2, 0.5}, {1.6, 0.6, 1.2}), false);
-  expectWithin(world, cameraAt({0.5, 1.3, 2.4}, {0, 0.8, 0}, 0.75), "cylinder",
-               {0.1, 0.98, 0.01, 0.98, 0.01});
+  expectWithin(world, cameraAt({0.5, 1.3, 2.4}, {0, 0.8, 0}, 0.75), "cylinder", kLimits);
 }
 
 TEST(Picture, wingMirror) {
@@ -129,8 +138,7 @@ TEST(Picture, wingMirror) {
   world.add(boxAt({2.5, 3.5, 9}, {-6.5, 1.75, 50}), false);
   world.add(boxAt({0.3, 1.2, 3.5}, {0.35, 0.6, 2.2}), false);  // flank of the own car
   for (int i = 0; i < 8; ++i) world.add(boxAt({0.15, 5, 0.15}, {-9, 2.5, 4.0 + 9 * i}), false);
-  expectWithin(world, cameraAt({0.45, 1.1, 0.54}, {0, 1.0, 0}, 0.23), "wing-mirror",
-               {0.1, 0.98, 0.01, 0.98, 0.01});
+  expectWithin(world, cameraAt({0.45, 1.1, 0.54}, {0, 1.0, 0}, 0.23), "wing-mirror", kLimits);
 }
 
 TEST(Picture, fenderPatch) {
@@ -147,7 +155,44 @@ TEST(Picture, fenderPatch) {
   world.add(boxAt({0.1, 0.5, 0.1}, {-0.35, 1.1, 0.25}), false);
   world.add(boxAt({0.1, 0.1, 0.1}, {-0.1, 0.72, 0.22}), false);
   world.add(boxAt({0.6, 1.5, 0.4}, {1.5, 0.75, 1.6}), false);
-  expectWithin(world, cameraAt({-0.3, 1.4, 1.6}, {0, 0.8, 0}, 0.6), "fender", {0.1, 0.98, 0.01, 0.98, 0.01});
+  expectWithin(world, cameraAt({-0.3, 1.4, 1.6}, {0, 0.8, 0}, 0.6), "fender", kLimits);
+}
+
+TEST(Picture, aWrongNormalDoesNotPass) {
+  // The twin that must fail: the solver works on normals turned by 0.3 degrees, the truth on the right ones.
+  const TestWorld world = makeSphereWorld();
+  scene::WorldGeometry wrong = world.geometry();
+  const scene::Part& part = wrong.parts[0];
+  for (std::uint32_t v = part.firstVertex; v < part.firstVertex + part.vertexCount; ++v)
+    wrong.normals[v] = glm::normalize(wrong.normals[v] + vec3(0, 0.005f, 0));
+  const HarnessResult r =
+      report(measureReflection(world, sphereCamera(480, 360), Solver::Refined, {}, "wrong-normal", &wrong),
+             "wrong-normal");
+  EXPECT_FALSE(isWithin(r, kLimits));
+}
+
+TEST(Picture, explosionAsPublishedIsWorseByFar) {
+  const HarnessResult r =
+      report(measureReflection(makeSphereWorld(), sphereCamera(240, 180), Solver::Explosion, {}, "explosion"),
+             "explosion 240x180");
+  EXPECT_GT(r.mirror.pixels, 20000u);
+  EXPECT_GT(r.mirror.medianPx, 2.0);  // of a sphere 175 px wide; 17 where it is 700 px wide
+}
+
+TEST(Picture, aConcaveBowlStaysSane) {
+  // Not what the method is made for yet: the wall lies near the bowl's focus. But the box before the focus is
+  // exact.
+  geometry::Mesh bowl =
+      makePatch(1.0, 0.7, 32, 24, [](double x, double y) { return 0.25 * (x * x + y * y); });
+  TestWorld world(geometry::transformed(std::move(bowl), geometry::moveBy({0, 1, 0})));
+  addRoom(world, 4, 3);
+  world.add(boxAt({0.2, 0.2, 0.2}, {0.2, 1.1, 0.4}), false);
+  const HarnessResult r = report(measureReflection(world, cameraAt({0.2, 1.2, 1.5}, {0, 1, 0}, 0.6, 160, 120),
+                                                   Solver::Refined, {}, "bowl"),
+                                 "bowl 160x120");
+  EXPECT_GT(r.objects.pixels, 500u);
+  EXPECT_LE(r.objects.medianPx, 0.15);
+  EXPECT_LE(r.objects.lost, 0.02);
 }
 
 }  // namespace

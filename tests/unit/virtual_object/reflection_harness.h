@@ -43,10 +43,12 @@ struct HarnessResult {
   double solveSeconds = 0;
 };
 
-/// Draws and compares. `name` labels pictures, which are written as .ppm to the directory in
-/// CATOPTRIC_TEST_PICTURES when that is set.
+/// Draws and compares. The virtual objects are made from `solvedGeometry` if given, the truth always from the
+/// world. `name` labels pictures, which are written as .ppm to the directory in CATOPTRIC_TEST_PICTURES when
+/// that is set.
 [[nodiscard]] HarnessResult measureReflection(const TestWorld& world, const scene::CameraFrame& camera,
                                               Solver solver, const TessellationOptions& tessellation,
-                                              const std::string& name);
+                                              const std::string& name,
+                                              const scene::WorldGeometry* solvedGeometry = nullptr);
 
 }  // namespace catoptric::virtual_object::test
