@@ -161,7 +161,7 @@ void addBody(SceneBuilder& builder, const CarPaints& paints) {
 }  // namespace
 
 void addOwnCar(SceneBuilder& builder) {
-  builder.addCamera("driver", kDriversEye, kDriversEye + dvec3(0.165, -0.05, -1.0), 71);
+  builder.addCamera("driver", kDriversEye, kDriversEye + dvec3(0.165, 0.01, -1.0), 71);
   builder.addCamera("left-mirror", kDriversEye, kLeftMirror + dvec3(0.015, -0.01, 0), 16);
   builder.addCamera("right-mirror", kDriversEye, kRightMirror + dvec3(-0.015, -0.01, 0), 11);
   builder.addCamera("inner-mirror", kDriversEye, kInnerMirror, 20);

@@ -45,8 +45,14 @@ void addBox(SceneBuilder& builder) {
                {"right wall", kRight, 0xDDE3D4, 0x3A7A4C},
                {"front wall", kFront, 0xE9DFB8, 0xC28A2B}};
   for (const auto& w : walls) {
-    const geometry::Mesh quad =
-        geometry::makeQuad({0, 0, 0}, {kBoxSize.x, 0, 0}, {kBoxSize.x, kBoxSize.y, 0}, {0, kBoxSize.y, 0});
+    // As makeWall() does, a little more than the wall, so that no crack shows the sky.
+    constexpr double kOver = 0.02;
+    const dvec2 size(kBoxSize.x, kBoxSize.y);
+    geometry::Mesh quad =
+        geometry::makeQuad({-kOver, -kOver, 0}, {size.x + kOver, -kOver, 0},
+                           {size.x + kOver, size.y + kOver, 0}, {-kOver, size.y + kOver, 0});
+    for (std::size_t i = 0; i < 4; ++i)
+      quad.uv[i] = vec2(quad.positions[i].x / float(size.x), 1 - quad.positions[i].y / float(size.y));
     builder.placeShell(w.name, quad,
                        checkerMaterial(builder, std::string(w.name) + " checks", w.first, w.second, 8, 6),
                        worldFromWall(kBoxSize, w.wall));

@@ -3,6 +3,8 @@
 // its traffic. The own car drives along the middle of three lanes towards -z; the driver's eye is near the
 // origin.
 #include <array>
+#include <cmath>
+#include <map>
 #include <string>
 
 #include "catoptric/geometry/shapes.h"
@@ -18,7 +20,7 @@ namespace {
 
 using geometry::Mesh;
 
-constexpr double kRoadHalf = 6.0, kLane = 3.5, kRoadFrom = -150, kRoadTo = 150, kTile = 12;
+constexpr double kRoadHalf = 6.0, kLane = 3.5, kRoadFrom = -150, kRoadTo = 150, kTile = 12, kStep = 6;
 
 struct RoadUser {
   const char* name;
@@ -64,6 +66,14 @@ Mesh makeStrip(double x0, double x1, double step, const dvec2& repeat) {
   return transformed(std::move(mesh), geometry::moveBy({0.5 * (x0 + x1), 0, 0.5 * (kRoadFrom + kRoadTo)}));
 }
 
+/// A strip of meadow that falls away under the road from its edge, so that no crack between the two shows the
+/// sky.
+Mesh makeApron(double x0, double x1) {
+  Mesh mesh = makeStrip(x0, x1, kStep, {9, 9});
+  for (vec3& p : mesh.positions) p.y = -0.4f * (float(kRoadHalf) - std::abs(p.x));
+  return mesh;
+}
+
 void addGround(SceneBuilder& builder) {
   const int road = builder.textured("road", {1024, 1024}, roadTile(), 0.85f, 1);
   BakedLight light;
@@ -73,10 +83,12 @@ void addGround(SceneBuilder& builder) {
   light.addBox({0, 0.65, 0.7}, {1.66, 0.9, 4.2});
   const auto shade = light.bake({-kRoadHalf, kRoadFrom}, {kRoadHalf, kRoadTo}, 0, 64, 1024, 0.9, 0);
   builder.setOcclusion(road, "road shade", paintOcclusion(64, 1024, shade), 1);
-  builder.placeShell("road", makeStrip(-kRoadHalf, kRoadHalf, 6, {2 * kRoadHalf, kTile}), road);
+  builder.placeShell("road", makeStrip(-kRoadHalf, kRoadHalf, kStep, {2 * kRoadHalf, kTile}), road);
   const int meadow = builder.textured("grass", {512, 512}, grass(5), 0.95f, 1);
-  Mesh sides = makeStrip(-130, -kRoadHalf, 10, {9, 9});
-  append(sides, makeStrip(kRoadHalf, 130, 10, {9, 9}));
+  Mesh sides = makeStrip(-130, -kRoadHalf, kStep, {9, 9});
+  append(sides, makeStrip(kRoadHalf, 130, kStep, {9, 9}));
+  append(sides, makeApron(kRoadHalf - 0.6, kRoadHalf));
+  append(sides, makeApron(-kRoadHalf, -kRoadHalf + 0.6));
   builder.placeShell("meadow", sides, meadow);
 }
 

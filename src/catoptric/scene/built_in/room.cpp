@@ -47,7 +47,9 @@ Mesh makeSkirting(double length, double height, const std::vector<Opening>& open
 }  // namespace
 
 Mesh makeWall(const dvec2& size, const std::vector<Opening>& openings, double metresPerRepeat) {
-  std::set<double> xs = {0.0, size.x}, ys = {0.0, size.y};
+  // A little more than the wall on every side: neighbours overlap, so that no crack shows the sky.
+  constexpr double kOverlap = 0.02;
+  std::set<double> xs = {-kOverlap, size.x + kOverlap}, ys = {-kOverlap, size.y + kOverlap};
   for (const Opening& o : openings) {
     xs.insert({o.lower.x, o.upper.x});
     ys.insert({o.lower.y, o.upper.y});

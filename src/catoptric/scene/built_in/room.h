@@ -28,7 +28,8 @@ struct RoomOptions {
 /// Floor, ceiling and walls, all marked as shell, facing inwards. Openings show the sky.
 void addRoom(SceneBuilder& builder, const RoomOptions& room);
 
-/// A wall in the plane z = 0 that faces +z, lower left corner at the origin, with holes; no T-junctions.
+/// A wall in the plane z = 0 that faces +z, lower left corner at the origin, with holes; no T-junctions. It
+/// reaches 2 cm past its size on all sides.
 [[nodiscard]] geometry::Mesh makeWall(const dvec2& size, const std::vector<Opening>& openings,
                                       double metresPerRepeat);
 
