@@ -17,6 +17,7 @@
 //   edge's
 //      points can be away from the reflector; split in two, three or four; repeat on the pieces. New vertices
 //      are shared within a part through a table of edges.
+//      Pieces with all corners behind every tangent plane of the mirror are left out: nothing reflects them.
 //   4. More triangles than the budget: start again with k a third larger.
 //
 // Departures: the papers tessellate uniformly and by hand. Failures: a triangle that crosses the mirror is
@@ -39,23 +40,44 @@ namespace {
 
 constexpr double kSagFactor = 0.06;
 constexpr std::size_t kSamples = 64;
+constexpr float kInTriangle =
+    0.3f;  // of its longest edge: no point is farther from both corners and centroid
 constexpr double kBudgetStep = 1.35;
 
 /// Step 1: how far away the reflector is, and on which scale it bends.
 class ReflectorDistance {
  public:
-  ReflectorDistance(const scene::WorldGeometry& geometry, const scene::Part& part) {
-    std::vector<vec3> surface;
-    for (std::uint32_t i = 0; i < part.indexCount; ++i)
+  ReflectorDistance(const scene::WorldGeometry& geometry, const scene::Part& part, bool mayBeSeenFromBehind) {
+    std::vector<vec3> surface, normals;
+    for (std::uint32_t i = 0; i < part.indexCount; ++i) {
       surface.push_back(geometry.positions[geometry.indices[part.firstIndex + i]]);
-    for (std::size_t i = 0; i + 2 < part.indexCount; i += 3)
-      surface.push_back((surface[i] + surface[i + 1] + surface[i + 2]) / 3.0f);
+      normals.push_back(geometry.normals[geometry.indices[part.firstIndex + i]]);
+    }
     if (surface.empty()) return;
-    pickSamples(surface);
+    for (std::size_t i = 0; i + 2 < part.indexCount; i += 3) {
+      for (int k = 0; k < 3; ++k)
+        longestEdge_ = std::max(longestEdge_, glm::length(surface[i + (k + 1) % 3] - surface[i + k]));
+      surface.push_back((surface[i] + surface[i + 1] + surface[i + 2]) / 3.0f);
+      normals.push_back((normals[i] + normals[i + 1] + normals[i + 2]) / 3.0f);
+    }
+    pickSamples(surface, normals);
     focalLength_ = float(findFocalLength(geometry, part));
+    hasBack_ = !mayBeSeenFromBehind;
   }
 
   [[nodiscard]] float focalLength() const { return focalLength_; }
+
+  /// True where the point lies behind the tangent planes of all of the mirror, which then never reflects it.
+  [[nodiscard]] bool isBehind(const vec3& p) const {
+    if (!hasBack_) return false;
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      const vec3 d(p.x - x_[i], p.y - y_[i], p.z - z_[i]);
+      // Between the samples the planes tilt by up to normalSpread_ and shift by up to coverRadius_.
+      if (glm::dot(d, normals_[i]) > -(coverRadius_ + normalSpread_ * std::sqrt(glm::dot(d, d))))
+        return false;
+    }
+    return true;
+  }
 
   /// A lower bound, a function of the position alone.
   [[nodiscard]] float operator()(const vec3& p) const {
@@ -69,21 +91,26 @@ class ReflectorDistance {
   }
 
  private:
-  void pickSamples(const std::vector<vec3>& surface) {
+  void pickSamples(const std::vector<vec3>& surface, const std::vector<vec3>& normals) {
     std::vector<float> squared(surface.size(), std::numeric_limits<float>::infinity());
+    std::vector<std::size_t> nearest(surface.size(), 0);
     std::size_t farthest = 0;
     while (x_.size() < kSamples) {
       const vec3 sample = surface[farthest];
       x_.push_back(sample.x), y_.push_back(sample.y), z_.push_back(sample.z);
+      normals_.push_back(normals[farthest]);
       farthest = 0;
       for (std::size_t i = 0; i < surface.size(); ++i) {
         const vec3 d = surface[i] - sample;
-        squared[i] = std::min(squared[i], glm::dot(d, d));
+        if (glm::dot(d, d) < squared[i]) squared[i] = glm::dot(d, d), nearest[i] = x_.size() - 1;
         if (squared[i] > squared[farthest]) farthest = i;
       }
       coverRadius_ = std::sqrt(squared[farthest]);
       if (coverRadius_ == 0) break;
     }
+    coverRadius_ += kInTriangle * longestEdge_;
+    for (std::size_t i = 0; i < surface.size(); ++i)
+      normalSpread_ = std::max(normalSpread_, glm::length(normals[i] - normals_[nearest[i]]));
   }
 
   /// Half the median radius of curvature, at most the size of the reflector.
@@ -109,7 +136,9 @@ class ReflectorDistance {
   }
 
   std::vector<float> x_, y_, z_;
-  float coverRadius_ = 0, focalLength_ = 1;
+  std::vector<vec3> normals_;
+  float coverRadius_ = 0, focalLength_ = 1, normalSpread_ = 0, longestEdge_ = 0;
+  bool hasBack_ = false;
 };
 
 /// Open addressing from an edge to the vertex at its middle.
@@ -163,6 +192,7 @@ struct PartPieces {
   std::vector<vec2> uv0, uv1;
   std::vector<vec4> colors;
   std::vector<float> distances;
+  std::vector<std::uint8_t> isBehind;
   std::vector<std::uint32_t> indices, sources;
 
   void reserve(std::size_t vertices) {
@@ -187,6 +217,7 @@ class PartCutter {
           (part_.firstIndex + i) / 3);
       if (made_.load(std::memory_order_relaxed) > budget_) break;
     }
+    dropUnusedVertices();
     return std::move(pieces_);
   }
 
@@ -200,7 +231,30 @@ class PartCutter {
     pieces_.uv0.push_back(geometry_.uv0[v]);
     pieces_.uv1.push_back(geometry_.uv1[v]);
     pieces_.colors.push_back(geometry_.colors[v]);
-    pieces_.distances.push_back(distance_(geometry_.positions[v]));
+    measureLastVertex();
+  }
+
+  /// Every vertex costs a search for its reflection point.
+  void dropUnusedVertices() {
+    std::vector<std::uint32_t> numberOf(pieces_.positions.size(), core::kNoId);
+    for (const std::uint32_t v : pieces_.indices) numberOf[v] = 0;
+    std::uint32_t kept = 0;
+    for (std::size_t v = 0; v < numberOf.size(); ++v) {
+      if (numberOf[v] == core::kNoId) continue;
+      const auto move = [v, kept](auto& values) { values[kept] = values[v]; };
+      move(pieces_.positions), move(pieces_.normals), move(pieces_.tangents);
+      move(pieces_.uv0), move(pieces_.uv1), move(pieces_.colors);
+      numberOf[v] = kept++;
+    }
+    const auto shorten = [kept](auto& values) { values.resize(kept); };
+    shorten(pieces_.positions), shorten(pieces_.normals), shorten(pieces_.tangents);
+    shorten(pieces_.uv0), shorten(pieces_.uv1), shorten(pieces_.colors);
+    for (std::uint32_t& v : pieces_.indices) v = numberOf[v];
+  }
+
+  void measureLastVertex() {
+    pieces_.distances.push_back(distance_(pieces_.positions.back()));
+    pieces_.isBehind.push_back(distance_.isBehind(pieces_.positions.back()));
   }
 
   [[nodiscard]] bool isTooLong(std::uint32_t a, std::uint32_t b) const {
@@ -218,7 +272,7 @@ class PartCutter {
     addMean(pieces_.positions), addMean(pieces_.normals), addMean(pieces_.tangents);
     addMean(pieces_.uv0), addMean(pieces_.uv1), addMean(pieces_.colors);
     pieces_.tangents.back().w = pieces_.tangents[a].w;  // handedness is no length
-    pieces_.distances.push_back(distance_(pieces_.positions.back()));
+    measureLastVertex();
     return middle;
   }
 
@@ -233,6 +287,7 @@ class PartCutter {
     while (!stack_.empty() && made_.load(std::memory_order_relaxed) <= budget_) {
       Corners c = stack_.back();
       stack_.pop_back();
+      if (pieces_.isBehind[c[0]] && pieces_.isBehind[c[1]] && pieces_.isBehind[c[2]]) continue;
       int mask = 0;
       for (int k = 0; k < 3; ++k) mask |= isTooLong(c[k], c[(k + 1) % 3]) << k;
       if (mask == 0) {
@@ -294,7 +349,7 @@ void appendPieces(TessellatedObjects& objects, std::uint32_t part, const PartPie
 TessellatedObjects tessellateForReflector(const scene::WorldGeometry& geometry, std::uint32_t reflector,
                                           const TessellationOptions& options) {
   const std::uint32_t own = geometry.reflectors[reflector].part;
-  const ReflectorDistance distance(geometry, geometry.parts[own]);
+  const ReflectorDistance distance(geometry, geometry.parts[own], geometry.reflectors[reflector].doubleSided);
   const double diameterPx = std::max(options.reflectorDiameterPx, 1.0);
   double k = std::sqrt(std::max(options.maxErrorPx, 1e-3) / (kSagFactor * diameterPx));
   k = std::min(k, 0.5);

@@ -42,7 +42,8 @@ struct TessellationOptions {
   std::size_t maxTriangles = 600000;  ///< budget; when hit, k is raised and one warning says so
 };
 
-/// `reflector` is an index into geometry.reflectors.
+/// `reflector` is an index into geometry.reflectors. Pieces that lie behind a single-sided mirror altogether
+/// are left out.
 [[nodiscard]] TessellatedObjects tessellateForReflector(const scene::WorldGeometry& geometry,
                                                         std::uint32_t reflector,
                                                         const TessellationOptions& options = {});

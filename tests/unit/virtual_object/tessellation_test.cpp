@@ -21,7 +21,7 @@ using test::TestWorld;
 TestWorld makeWorld() {
   TestWorld world(geometry::transformed(geometry::makeIcosphere(0.5, 8), geometry::moveBy({0, 0.5, 0})));
   world.add(geometry::makeQuad({-4, 0, 4}, {4, 0, 4}, {4, 0, -4}, {-4, 0, -4}), true);
-  world.add(geometry::makeBox({1, 1, 1}), false);
+  world.add(geometry::transformed(geometry::makeBox({1, 1, 1}), geometry::moveBy({-1.5, 0.7, 0})), false);
   world.add(geometry::transformed(geometry::makeIcosphere(0.3, 3), geometry::moveBy({1, 0.3, 1})), false);
   return world;
 }
@@ -80,6 +80,22 @@ TEST(Tessellation, hasNoCracksEvenBetweenDuplicatedVertices) {
       }
     for (const auto& [edge, balance] : edges) EXPECT_EQ(balance, 0);
   }
+}
+
+TEST(Tessellation, leavesOutWhatLiesBehindAnOpenMirror) {
+  // Faces up; one box above, one below, one across.
+  TestWorld world(geometry::makePlane(1, 1, 4, 4));
+  for (const double y : {2.0, -2.0, 0.0})
+    world.add(geometry::transformed(geometry::makeBox({1, 1, 1}), geometry::moveBy({0, y, 0})), false);
+  const TessellatedObjects objects = tessellateForReflector(world.geometry(), 0);
+  std::map<std::uint32_t, double> areas;
+  for (const TessellatedPart& part : objects.parts)
+    for (std::uint32_t i = part.firstIndex; i < part.firstIndex + part.indexCount; i += 3)
+      areas[part.part] += areaOf(objects.positions, &objects.indices[i]);
+  EXPECT_NEAR(areas[1], 6.0, 1e-4);
+  EXPECT_EQ(areas.count(2), 0u);
+  EXPECT_GT(areas[3], 3.0);  // the upper half, and what is cut too coarsely to be left out
+  EXPECT_LT(areas[3], 5.5);
 }
 
 TEST(Tessellation, isFineNearTheMirrorAndCoarseAway) {
