@@ -209,7 +209,7 @@ template <class Write>
 void VirtualObjectSolver::computeRefined(std::span<const vec3> scenePoints, const Write& write) const {
   constexpr std::size_t kBlock = 32;
   const SeedPixel* seeds[kBlock];
-  double weights[kBlock];
+  double weights[kBlock] = {};
   VirtualVertex last;  // steps = 0: no reflection point
   dvec3 lastPoint(0);
   for (std::size_t first = 0; first < scenePoints.size(); first += kBlock) {
