@@ -12,8 +12,8 @@
 #include "catoptric/core/progress.h"
 #include "command_line.h"
 #include "commands.h"
+#include "comparison_limits.h"
 #include "comparison_page.h"
-#include "limits.h"
 #include "option_values.h"
 #include "terminal.h"
 
@@ -106,9 +106,9 @@ std::string quoteLine(const std::vector<std::string>& line) {
     if (word.empty() || word.find_first_not_of(kPlain) != std::string::npos) {
       for (std::size_t at = 0; (at = quoted.find('\'', at)) != std::string::npos; at += 4)
         quoted.replace(at, 1, "'\\''");
-      quoted = "'" + quoted + "'";
+      quoted.insert(0, 1, '\'').push_back('\'');
     }
-    text += " " + quoted;
+    text.append(" ").append(quoted);
   }
   return text;
 }

@@ -51,7 +51,7 @@ class ViewComparer {
 
  private:
   [[nodiscard]] std::string write(const std::string& name, const core::ImageRgba8& picture) const {
-    const std::string file = options_.viewFolder + "/" + name + ".png";
+    std::string file = options_.viewFolder + "/" + name + ".png";
     writePng((options_.folder / file).string(), picture);
     return file;
   }

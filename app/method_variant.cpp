@@ -25,6 +25,7 @@ FrameTimes summarise(const std::vector<renderer::FrameTimings>& frames,
                      const renderer::FrameCounters& counters) {
   const auto collect = [&](double renderer::FrameTimings::*member) {
     std::vector<double> values;
+    values.reserve(frames.size());
     for (const renderer::FrameTimings& frame : frames) values.push_back(frame.*member);
     return values;
   };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shared_options.h"
 
+#include <fmt/format.h>
+
 #include <string_view>
 #include <vector>
 
@@ -31,13 +33,12 @@ Value choose(const std::string& option, const std::string& text, const std::vect
   std::string all;
   for (const Value value : values) {
     names.emplace_back(nameOf(value));
-    all += (all.empty() ? "" : ", ") + names.back();
+    all.append(all.empty() ? "there are " : ", ").append(names.back());
     if (names.back() == text) return value;
   }
   for (const std::string& name : planned)
-    if (name == text)
-      throw UsageError(option + ": '" + text + "' is not in this version", "there are " + all);
-  throw UsageError(option + ": there is no '" + text + "'", makeSuggestion(text, names, "there are " + all));
+    if (name == text) throw UsageError(fmt::format("{}: '{}' is not in this version", option, text), all);
+  throw UsageError(fmt::format("{}: there is no '{}'", option, text), makeSuggestion(text, names, all));
 }
 
 Setter setVector(const std::string& option, std::optional<dvec3>& target) {
