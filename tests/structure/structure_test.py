@@ -17,11 +17,12 @@ from concurrent.futures import ThreadPoolExecutor
 
 SOURCE = os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))), "src", "catoptric")
 SCENE = {"core", "geometry", "scene"}
+RASTER = SCENE | {"gl", "raster"}
 METHODS = {"planar_mirror", "virtual_object", "environment_map"}
-# core <- geometry <- scene <- methods, reference <- renderer; no method sees another, nor the judge, nor GL.
+# core <- geometry <- scene <- raster <- methods <- renderer; no method sees another, nor the judge, and it sees none.
 SEES = {"core": set(), "geometry": {"core"}, "scene": {"core", "geometry"}, "gl": {"core"}, "metrics": {"core"},
-        "reference": SCENE, **{method: SCENE for method in METHODS},
-        "renderer": SCENE | METHODS | {"gl", "reference"}}
+        "raster": SCENE | {"gl"}, "reference": SCENE, **{method: RASTER for method in METHODS},
+        "renderer": RASTER | METHODS | {"reference"}}
 
 
 def compile_text(compiler, directories, text):
