@@ -88,6 +88,15 @@ TEST(GltfNodes, TransformsThatOverflowDropTheirInstance) {
   EXPECT_TRUE(hasWarning(scene, "beyond all numbers"));
 }
 
+TEST(GltfNodes, WarningsAreNotEndless) {
+  Json nodes = Json::array();
+  for (int i = 0; i < 1000; ++i)
+    nodes.push_back({{"name", "n" + std::to_string(i)}, {"extras", {{"catoptric", {{"shell", true}}}}}});
+  const Scene scene = import(withNodes(nodes));
+  EXPECT_LT(scene.warnings.size(), 110u);
+  EXPECT_TRUE(hasWarning(scene, "further warnings"));
+}
+
 TEST(GltfNodes, MeshesAreShared) {
   const Scene scene = import(withNodes({{{"mesh", 0}}, {{"mesh", 0}}, {{"mesh", 0}}}));
   EXPECT_EQ(scene.meshes.size(), 1u);

@@ -24,6 +24,9 @@ constexpr std::array<const char*, std::size_t(Repair::Count)> kRepairTexts = {
     "{} vertex attributes were not aligned to 4 bytes and were read as they stand",
 };
 
+/// A file of a million bad nodes must not give a million lines.
+constexpr std::size_t kMaxWarnings = 100;
+
 }  // namespace
 
 Context::Context(std::string name, const ImportOptions& options)
@@ -35,7 +38,8 @@ void Context::fail(std::string_view code, const std::string& message, const std:
 }
 
 void Context::warn(const std::string& line) {
-  if (said_.insert(line).second) warnings_.push_back(line);
+  if (warnings_.size() > kMaxWarnings || !said_.insert(line).second) return;
+  warnings_.push_back(warnings_.size() < kMaxWarnings ? line : "further warnings were left out");
 }
 
 void Context::count(Repair repair, std::size_t howMany) {
@@ -44,7 +48,7 @@ void Context::count(Repair repair, std::size_t howMany) {
 
 std::vector<std::string> Context::takeWarnings() {
   for (std::size_t i = 0; i < counts_.size(); ++i)
-    if (counts_[i] > 0) warn(fmt::format(fmt::runtime(kRepairTexts[i]), counts_[i]));
+    if (counts_[i] > 0) warnings_.push_back(fmt::format(fmt::runtime(kRepairTexts[i]), counts_[i]));
   return std::move(warnings_);
 }
 

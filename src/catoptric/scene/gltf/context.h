@@ -39,7 +39,7 @@ class Context {
   [[noreturn]] void fail(std::string_view code, const std::string& message, const std::string& pointer = {},
                          const std::string& hint = {}) const;
 
-  /// Says a line once, however often it applies.
+  /// Says a line once, however often it applies; at most about a hundred lines in all.
   void warn(const std::string& line);
   void count(Repair repair, std::size_t howMany = 1);
   /// Adds the lines of the counted repairs and returns all warnings in the order in which they arose.

@@ -183,6 +183,8 @@ Primitive readPrimitive(Context& context, const Element& element, const Model& m
   if (!primitive.attributes.empty()) {
     const int first = position >= 0 ? position : primitive.attributes.front().second;
     const std::size_t count = model.accessors[std::size_t(first)].count;
+    if (count > 0x7FFFFFFFu)
+      attributes.fail("gltf.value", "a primitive must not have more than 2^31 vertices");
     checkCounts(attributes, model, primitive.attributes, count);
     readTargets(context, element, model, primitive, count);
   }
