@@ -17,7 +17,8 @@ Buffer::~Buffer() {
 }
 
 void Buffer::upload(std::span<const std::byte> bytes, bool changesEveryFrame) {
-  // The copy-write target leaves vertex array state alone (an index buffer binding belongs to the vertex array).
+  // The copy-write target leaves vertex array state alone (an index buffer binding belongs to the vertex
+  // array).
   glBindBuffer(GL_COPY_WRITE_BUFFER, id_);
   if (bytes.size() > capacity_ || capacity_ == 0) {
     glBufferData(GL_COPY_WRITE_BUFFER, GLsizeiptr(bytes.size()), bytes.data(),

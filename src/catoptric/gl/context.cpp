@@ -50,10 +50,11 @@ struct Context::Impl {
   std::string pendingMessage;
   bool software = false;
 
-  static void GLAD_API_PTR onMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, const GLchar* text,
-                                     const void* user) {
+  static void GLAD_API_PTR onMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei,
+                                     const GLchar* text, const void* user) {
     if (type == GL_DEBUG_TYPE_PERFORMANCE) return;
-    if (type != GL_DEBUG_TYPE_ERROR && severity != GL_DEBUG_SEVERITY_HIGH && severity != GL_DEBUG_SEVERITY_MEDIUM)
+    if (type != GL_DEBUG_TYPE_ERROR && severity != GL_DEBUG_SEVERITY_HIGH &&
+        severity != GL_DEBUG_SEVERITY_MEDIUM)
       return;
     auto* self = static_cast<Impl*>(const_cast<void*>(user));
     if (self->pendingMessage.empty()) self->pendingMessage = text;
@@ -63,7 +64,8 @@ struct Context::Impl {
     display = openDisplay(attempt);
     if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return false;
     if (!eglBindAPI(EGL_OPENGL_API)) return false;
-    const std::array<EGLint, 5> configAttributes{EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+    const std::array<EGLint, 5> configAttributes{EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
+                                                 EGL_NONE};
     EGLConfig config = nullptr;
     EGLint configCount = 0;
     if (!eglChooseConfig(display, configAttributes.data(), &config, 1, &configCount) || configCount < 1)

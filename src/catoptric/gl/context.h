@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A headless OpenGL 3.3 core context through EGL: no display server and no GPU needed (Mesa's llvmpipe serves).
+// A headless OpenGL 3.3 core context through EGL: no display server and no GPU needed (Mesa's llvmpipe
+// serves).
 #pragma once
 
 #include <memory>

@@ -25,9 +25,10 @@ Framebuffer::Framebuffer(std::span<const Texture* const> colors, const Texture* 
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE) {
     glDeleteFramebuffers(1, &id_);
-    throw core::Error("gl.framebuffer",
-                      fmt::format("a {}x{} render target is not supported (0x{:04x})", width_, height_, status), {},
-                      "use a smaller --size or --method raytrace");
+    throw core::Error(
+        "gl.framebuffer",
+        fmt::format("a {}x{} render target is not supported (0x{:04x})", width_, height_, status), {},
+        "use a smaller --size or --method raytrace");
   }
 }
 

@@ -59,7 +59,8 @@ std::string assembleShader(std::string_view name, const std::vector<std::string>
   return source;
 }
 
-Program::Program(std::string_view vertexFile, std::string_view fragmentFile, const std::vector<std::string>& defines) {
+Program::Program(std::string_view vertexFile, std::string_view fragmentFile,
+                 const std::vector<std::string>& defines) {
   const unsigned vertex = compile(GL_VERTEX_SHADER, vertexFile, defines);
   unsigned fragment = 0;
   try {
@@ -80,7 +81,8 @@ Program::Program(std::string_view vertexFile, std::string_view fragmentFile, con
     char log[2048] = "";
     glGetProgramInfoLog(id_, sizeof log, nullptr, log);
     glDeleteProgram(id_);
-    throw core::Error("gl.shader", fmt::format("'{}' and '{}' do not link: {}", vertexFile, fragmentFile, log));
+    throw core::Error("gl.shader",
+                      fmt::format("'{}' and '{}' do not link: {}", vertexFile, fragmentFile, log));
   }
 }
 
@@ -123,6 +125,10 @@ void Program::set(std::string_view uniform, const mat4& value) {
 }
 void Program::set(std::string_view uniform, const std::vector<vec3>& values) {
   glUniform3fv(location(uniform), GLsizei(values.size()), &values[0][0]);
+}
+
+void Program::set(std::string_view uniform, const std::vector<vec4>& values) {
+  if (!values.empty()) glUniform4fv(location(uniform), GLsizei(values.size()), &values[0][0]);
 }
 
 void Program::bindBlock(const char* block, unsigned bindingPoint) {

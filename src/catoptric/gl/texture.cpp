@@ -15,13 +15,20 @@ struct FormatInfo {
 
 FormatInfo infoOf(Format format) {
   switch (format) {
-    case Format::Rgba8: return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
-    case Format::Srgb8Alpha8: return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE};
-    case Format::Rgb16F: return {GL_RGB16F, GL_RGB, GL_FLOAT};
-    case Format::Rgba16F: return {GL_RGBA16F, GL_RGBA, GL_FLOAT};
-    case Format::Rgba32F: return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
-    case Format::Rg32Ui: return {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT};
-    case Format::Depth32F: return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT};
+    case Format::Rgba8:
+      return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
+    case Format::Srgb8Alpha8:
+      return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE};
+    case Format::Rgb16F:
+      return {GL_RGB16F, GL_RGB, GL_FLOAT};
+    case Format::Rgba16F:
+      return {GL_RGBA16F, GL_RGBA, GL_FLOAT};
+    case Format::Rgba32F:
+      return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
+    case Format::Rg32Ui:
+      return {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT};
+    case Format::Depth32F:
+      return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT};
   }
   return {};
 }
@@ -42,7 +49,12 @@ GLint wrapOf(TextureWrap wrap) {
 
 Texture::Texture(TextureKind kind, Format format, int widthTexels, int heightTexels, int layers, int levels,
                  const SamplerState& sampler)
-    : kind_(kind), format_(format), width_(widthTexels), height_(heightTexels), layers_(layers), levels_(levels) {
+    : kind_(kind),
+      format_(format),
+      width_(widthTexels),
+      height_(heightTexels),
+      layers_(layers),
+      levels_(levels) {
   const GLenum target = targetOf(kind);
   const FormatInfo info = infoOf(format);
   glGenTextures(1, &id_);
@@ -53,8 +65,8 @@ Texture::Texture(TextureKind kind, Format format, int widthTexels, int heightTex
       glTexImage3D(target, level, info.internal, w, h, layers, 0, info.format, info.type, nullptr);
     } else if (kind == TextureKind::Cube) {
       for (unsigned face = 0; face < 6; ++face)
-        glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, level, info.internal, w, h, 0, info.format, info.type,
-                     nullptr);
+        glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, level, info.internal, w, h, 0, info.format,
+                     info.type, nullptr);
     } else {
       glTexImage2D(target, level, info.internal, w, h, 0, info.format, info.type, nullptr);
     }
@@ -81,7 +93,8 @@ void Texture::upload(int level, int layer, const void* texels) {
   if (kind_ == TextureKind::Array) {
     glTexSubImage3D(target, level, 0, 0, layer, w, h, 1, info.format, info.type, texels);
   } else {
-    const GLenum face = kind_ == TextureKind::Cube ? GL_TEXTURE_CUBE_MAP_POSITIVE_X + unsigned(layer) : target;
+    const GLenum face =
+        kind_ == TextureKind::Cube ? GL_TEXTURE_CUBE_MAP_POSITIVE_X + unsigned(layer) : target;
     glTexSubImage2D(face, level, 0, 0, w, h, info.format, info.type, texels);
   }
 }

@@ -15,8 +15,8 @@ struct SamplerState {
   TextureWrap wrapU = TextureWrap::ClampToEdge, wrapV = TextureWrap::ClampToEdge;
   bool magnifyNearest = true;
   bool minifyNearest = true;
-  /// Levels are always picked one at a time: shaders blend two integer levels themselves (shaders/lib), because
-  /// drivers differ in how they compute and round a level.
+  /// Levels are always picked one at a time: shaders blend two integer levels themselves (shaders/lib),
+  /// because drivers differ in how they compute and round a level.
   bool hasMipmaps = false;
 };
 
@@ -29,8 +29,8 @@ class Texture {
   Texture(const Texture&) = delete;
   Texture& operator=(const Texture&) = delete;
 
-  /// Uploads one whole image: 8-bit formats from bytes (4 per texel), 16F formats from 32-bit floats (3 or 4 per
-  /// texel). `layer`: of an array, or the face of a cube in GL's order.
+  /// Uploads one whole image: 8-bit formats from bytes (4 per texel), 16F formats from 32-bit floats (3 or 4
+  /// per texel). `layer`: of an array, or the face of a cube in GL's order.
   void upload(int level, int layer, const void* texels);
   void generateMipmaps();
   void bind(int unit) const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A frame by any method: primary image, one reflection image per level of mirrors, composition. The entry point of
-// the library: load a scene, make a Renderer, render.
+// A frame by any method: primary image, one reflection image per level of mirrors, composition. The entry
+// point of the library: load a scene, make a Renderer, render.
 #pragma once
 
 #include <array>
@@ -35,9 +35,9 @@ struct FrameOptions {
   Solver solver = Solver::Auto;
   int widthPx = 960, heightPx = 720;
   int bounces = 1;
-  int samples = 1;               ///< per pixel, for radiance; what is seen is always sampled at the pixel centre
-  double maxErrorPx = 0.5;       ///< aim of the tessellation of reflected objects
-  bool boxCorrected = true;      ///< Environment: parallax-corrected by the box of the room; false: plain
+  int samples = 1;           ///< per pixel, for radiance; what is seen is always sampled at the pixel centre
+  double maxErrorPx = 0.5;   ///< aim of the tessellation of reflected objects
+  bool boxCorrected = true;  ///< Environment: parallax-corrected by the box of the room; false: plain
   int environmentMapSize = 512;  ///< Environment: edge of a cube face, texels
   bool withSeen = true;          ///< read back what is seen at each pixel
 };
@@ -50,15 +50,15 @@ struct FrameTimings {
 };
 
 struct FrameCounters {
-  std::uint64_t virtualVertices = 0;     ///< reflection points sought
-  std::uint64_t virtualTriangles = 0;    ///< drawn into reflection images
+  std::uint64_t virtualVertices = 0;   ///< reflection points sought
+  std::uint64_t virtualTriangles = 0;  ///< drawn into reflection images
   std::uint64_t reflectorsDrawn = 0, reflectorsCulled = 0;
-  std::uint64_t rays = 0;                ///< RayTrace only
+  std::uint64_t rays = 0;  ///< RayTrace only
 };
 
 struct Frame {
-  core::ImageRgbaF radiance;      ///< linear; alpha 1 (0 never occurs: the environment is behind everything)
-  core::SeenImage seen;           ///< empty unless asked for
+  core::ImageRgbaF radiance;  ///< linear; alpha 1 (0 never occurs: the environment is behind everything)
+  core::SeenImage seen;       ///< empty unless asked for
   core::FootprintImage footprints;  ///< RayTrace only
   FrameTimings timings;
   FrameCounters counters;
@@ -75,7 +75,8 @@ struct MethodChoice {
 class Renderer {
  public:
   /// Arguments must outlive the renderer.
-  Renderer(const scene::Scene& scene, const scene::WorldGeometry& geometry, const scene::Environment& environment);
+  Renderer(const scene::Scene& scene, const scene::WorldGeometry& geometry,
+           const scene::Environment& environment);
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Environment maps (methods.md, section 4): a cube of pictures taken at the mirror's centroid without the
+// mirror, looked up in the mirror direction; plain, or corrected by the box of the room. The baseline
+// everyone has.
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "catoptric/raster/reflection_method.h"
+
+namespace catoptric::environment_map {
+
+class EnvironmentMapMethod : public raster::ReflectionMethod {
+ public:
+  EnvironmentMapMethod();
+  [[nodiscard]] std::string_view name() const override { return "environment"; }
+  [[nodiscard]] bool supports(const raster::Chain&) const override { return true; }
+  void setOptions(int sizeTexels, bool boxCorrected);
+  /// Cubes are taken anew in every frame: something may have moved.
+  void prepare(raster::FrameContext& frame) override;
+  void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
+              raster::Level& target) override;
+
+ private:
+  struct Cube {
+    explicit Cube(int sizeTexels);
+    gl::Texture color, position, ids;
+    bool isFresh = false;
+  };
+  Cube& takeCube(raster::FrameContext& frame, std::uint32_t reflector);
+
+  gl::Program program_;
+  gl::VertexArray nothing_;
+  int sizeTexels_ = 512;
+  bool boxCorrected_ = true;
+  std::unique_ptr<raster::Level> face_;
+  std::map<std::uint32_t, std::unique_ptr<Cube>> cubes_;
+};
+
+/// The box of the room: bounds of the shell if it holds the point, else of the whole scene.
+[[nodiscard]] core::Box findRoomBox(const scene::WorldGeometry& world, const dvec3& point);
+
+}  // namespace catoptric::environment_map

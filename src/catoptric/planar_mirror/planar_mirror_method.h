@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Planar mirrors (McReynolds & Blythe 2005, section 17.1.2; 1998, section 2.3): the scene is drawn again
+// through the product of the mirrors' reflection matrices, winding turned round, cut at the plane of the last
+// mirror, only where the level before shows that mirror.
+#pragma once
+
+#include "catoptric/raster/reflection_method.h"
+
+namespace catoptric::planar_mirror {
+
+class PlanarMirrorMethod : public raster::ReflectionMethod {
+ public:
+  [[nodiscard]] std::string_view name() const override { return "planar"; }
+  [[nodiscard]] bool supports(const raster::Chain& chain) const override { return !chain.curved; }
+  void prepare(raster::FrameContext&) override {}
+  void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
+              raster::Level& target) override;
+
+ private:
+  raster::MirrorBackgroundPass background_;
+  std::unique_ptr<raster::VertexStreams> blendedStreams_;
+  std::vector<std::uint32_t> sortedIndices_;
+  std::vector<raster::DrawRange> ranges_, sortedRanges_;
+};
+
+}  // namespace catoptric::planar_mirror

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "catoptric/raster/level.h"
+
+#include <array>
+
+namespace catoptric::raster {
+namespace {
+
+gl::Texture makeTarget(gl::Format format, int widthPx, int heightPx) {
+  return gl::Texture(gl::TextureKind::Flat, format, widthPx, heightPx, 1, 1, gl::SamplerState{});
+}
+
+gl::Framebuffer makeFramebuffer(std::initializer_list<const gl::Texture*> colors, const gl::Texture* depth) {
+  return gl::Framebuffer(std::span(colors.begin(), colors.size()), depth);
+}
+
+}  // namespace
+
+Level::Level(int width, int height)
+    : widthPx(width),
+      heightPx(height),
+      radiance(makeTarget(gl::Format::Rgba32F, width, height)),
+      position(makeTarget(gl::Format::Rgba32F, width, height)),
+      weight(makeTarget(gl::Format::Rgba32F, width, height)),
+      ids(makeTarget(gl::Format::Rg32Ui, width, height)),
+      depth(makeTarget(gl::Format::Depth32F, width, height)),
+      overlay(makeTarget(gl::Format::Rgba32F, width, height)),
+      color(makeTarget(gl::Format::Rgba32F, width, height)),
+      seenPosition(makeTarget(gl::Format::Rgba32F, width, height)),
+      seenIds(makeTarget(gl::Format::Rg32Ui, width, height)),
+      surfaces(makeFramebuffer({&radiance, &position, &weight, &ids}, &depth)),
+      overlays(makeFramebuffer({&overlay}, &depth)),
+      composed(makeFramebuffer({&color, &seenPosition, &seenIds}, nullptr)) {}
+
+void Level::clear() const {
+  surfaces.bind();
+  for (int attachment = 0; attachment < 3; ++attachment) surfaces.clearColor(attachment, vec4(0.0f));
+  surfaces.clearColor(3, uvec4(0u));
+  surfaces.clearDepth();
+}
+
+void Level::bindAsParent(gl::Program& program) const {
+  const std::array<std::pair<const char*, const gl::Texture*>, 4> images{{{"u_parentRadiance", &radiance},
+                                                                          {"u_parentPosition", &position},
+                                                                          {"u_parentWeight", &weight},
+                                                                          {"u_parentIds", &ids}}};
+  int unit = kUnitFirstFree;
+  for (const auto& [name, texture] : images) {
+    texture->bind(unit);
+    program.set(name, unit++);
+  }
+}
+
+ComposePass::ComposePass() : program_("raster/screen.vert", "raster/compose.frag") {}
+
+void ComposePass::draw(const SceneBuffers& scene, const Level& level, const Level* next) {
+  level.composed.bind();
+  gl::setDrawState({.depthTest = false, .depthWrite = false});
+  program_.use();
+  scene.bindEnvironment(program_);
+  const Level& other = next ? *next : level;
+  int unit = kUnitFirstFree;
+  const auto bind = [&](const char* name, const gl::Texture& texture) {
+    texture.bind(unit);
+    program_.set(name, unit++);
+  };
+  bind("u_radiance", level.radiance);
+  bind("u_position", level.position);
+  bind("u_weight", level.weight);
+  bind("u_ids", level.ids);
+  bind("u_overlay", level.overlay);
+  bind("u_nextIds", other.ids);
+  // Without a next level these are never read; a target that is being written must not be bound.
+  bind("u_nextColor", next ? next->color : level.radiance);
+  bind("u_nextSeenPosition", next ? next->seenPosition : level.position);
+  bind("u_nextSeenIds", next ? next->seenIds : level.ids);
+  program_.set("u_hasOverlay", level.hasOverlay ? 1 : 0);
+  program_.set("u_hasNext", next ? 1 : 0);
+  nothing_.bind();
+  gl::drawScreen();
+}
+
+}  // namespace catoptric::raster

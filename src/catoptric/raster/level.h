@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pictures of one level of mirrors: level 0 is the primary image, level k shows what is seen after k
+// mirrors, at the pixels of level k-1's mirrors. Layout: shaders/raster/level_pixels.glsl.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "catoptric/gl/framebuffer.h"
+#include "catoptric/gl/program.h"
+#include "catoptric/gl/texture.h"
+#include "catoptric/raster/scene_buffers.h"
+
+namespace catoptric::raster {
+
+struct Level {
+  Level(int widthPx, int heightPx);
+
+  void clear() const;
+  /// Binds the stored pictures as the "parent" that the next level reads.
+  void bindAsParent(gl::Program& program) const;
+
+  int widthPx, heightPx;
+  gl::Texture radiance, position, weight, ids, depth;
+  gl::Texture overlay;                       ///< blended surfaces, premultiplied
+  gl::Texture color, seenPosition, seenIds;  ///< composed
+  gl::Framebuffer surfaces, overlays, composed;
+  bool hasOverlay = false;
+};
+
+/// Blends a level with what its mirrors show (shaders/raster/compose.frag).
+class ComposePass {
+ public:
+  ComposePass();
+  /// `next` may be null: mirrors show the environment.
+  void draw(const SceneBuffers& scene, const Level& level, const Level* next);
+
+ private:
+  gl::Program program_;
+  gl::VertexArray nothing_;
+};
+
+}  // namespace catoptric::raster

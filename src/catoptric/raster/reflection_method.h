@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The interface of every rasterised way of making reflections. Adding one: a folder, and a row in
+// renderer.cpp.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "catoptric/raster/surface_pass.h"
+
+namespace catoptric::raster {
+
+struct MethodCounters {
+  std::uint64_t virtualVertices = 0;
+  std::uint64_t virtualTriangles = 0;
+  double virtualVerticesMs = 0;
+};
+
+/// What a method gets to work with in one frame.
+struct FrameContext {
+  const SceneBuffers& scene;
+  const scene::CameraFrame& camera;
+  SurfacePass& surfaces;
+  PrimaryPass& primary;
+  ComposePass& compose;
+  double nearPlane = 0.01;
+  dvec2 jitterPx{0.5, 0.5};
+  double maxErrorPx = 0.5;
+  MethodCounters& counters;
+};
+
+class ReflectionMethod {
+ public:
+  virtual ~ReflectionMethod() = default;
+  [[nodiscard]] virtual std::string_view name() const = 0;
+  [[nodiscard]] virtual bool supports(const Chain& chain) const = 0;
+  /// Once a frame, before the first render().
+  virtual void prepare(FrameContext& frame) = 0;
+  /// Draws what the last mirror of the chain shows into `target`, at the pixels of `parent` that show that
+  /// mirror.
+  virtual void render(FrameContext& frame, const Chain& chain, const Level& parent, Level& target) = 0;
+};
+
+/// The environment in the mirror direction: the background of planar and virtual-object reflections.
+class MirrorBackgroundPass {
+ public:
+  MirrorBackgroundPass();
+  void draw(const SceneBuffers& scene, const Chain& chain, const Level& parent, const Level& target);
+
+ private:
+  gl::Program program_;
+  gl::VertexArray nothing_;
+};
+
+}  // namespace catoptric::raster

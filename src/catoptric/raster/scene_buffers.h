@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole scene on the GPU: world geometry, materials with their textures, lights, environment.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "catoptric/gl/program.h"
+#include "catoptric/gl/texture.h"
+#include "catoptric/raster/vertex_streams.h"
+#include "catoptric/scene/environment.h"
+#include "catoptric/scene/scene.h"
+#include "catoptric/scene/world_geometry.h"
+
+namespace catoptric::raster {
+
+/// Texture units; samplers of shaders/raster/*.glsl.
+enum Unit : int {
+  kUnitBaseColor,
+  kUnitMetallicRoughness,
+  kUnitNormal,
+  kUnitOcclusion,
+  kUnitEmissive,
+  kUnitEnvironment,
+  kUnitPrefiltered,
+  kUnitFirstFree,  ///< level images and what else a pass reads
+};
+
+class SceneBuffers {
+ public:
+  /// Arguments must outlive the object. Needs a current GL context.
+  SceneBuffers(const scene::Scene& scene, const scene::WorldGeometry& geometry,
+               const scene::Environment& environment);
+
+  /// Sets what every shader that includes raster/environment_lookup.glsl needs; the program must be in use.
+  void bindEnvironment(gl::Program& program) const;
+  void bindLights(gl::Program& program) const;
+  void bindMaterial(int material) const;
+
+  [[nodiscard]] const scene::Material& material(int index) const;
+  [[nodiscard]] const scene::WorldGeometry& geometry() const { return geometry_; }
+  [[nodiscard]] const VertexStreams& world() const { return world_; }
+  /// Parts drawn opaquely, and those that are blended over the picture afterwards.
+  [[nodiscard]] const std::vector<DrawRange>& opaqueRanges() const { return opaque_; }
+  [[nodiscard]] const std::vector<DrawRange>& blendedRanges() const { return blended_; }
+  [[nodiscard]] bool isBlended(std::uint32_t part) const;
+
+ private:
+  void uploadMaterials();
+  void uploadEnvironment(const scene::Environment& environment);
+  const gl::Texture* findTexture(const scene::TextureSlot& slot, bool srgb);
+
+  const scene::Scene& scene_;
+  const scene::WorldGeometry& geometry_;
+  VertexStreams world_;
+  gl::Buffer materialBlocks_;
+  std::size_t blockStride_ = 0;
+  std::vector<scene::Material> materials_;                ///< the scene's, then the default one
+  std::vector<std::array<const gl::Texture*, 5>> slots_;  ///< per material, null = none
+  std::map<std::pair<int, bool>, std::unique_ptr<gl::Texture>> textures_;
+  std::unique_ptr<gl::Texture> white_, radiance_, prefiltered_;
+  std::vector<vec3> irradiance_;
+  std::vector<DrawRange> opaque_, blended_;
+};
+
+}  // namespace catoptric::raster

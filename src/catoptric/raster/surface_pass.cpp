@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "catoptric/raster/surface_pass.h"
+
+#include <algorithm>
+
+namespace catoptric::raster {
+
+SurfacePass::SurfacePass()
+    : opaque_("raster/surface.vert", "raster/surface.frag"),
+      blended_("raster/surface.vert", "raster/surface.frag", {"OVERLAY"}) {
+  opaque_.bindBlock("Material", 0);
+  blended_.bindBlock("Material", 0);
+}
+
+void SurfacePass::draw(const SceneBuffers& scene, const VertexStreams& streams,
+                       std::span<const DrawRange> ranges, const SurfaceView& view, const Level& target) {
+  target.surfaces.bind();
+  if (view.chain) gl::setScissor(view.chain->bounds);
+  drawRanges(opaque_, scene, streams, ranges, view, false);
+}
+
+void SurfacePass::drawBlended(const SceneBuffers& scene, const VertexStreams& streams,
+                              std::span<const DrawRange> ranges, const SurfaceView& view, Level& target) {
+  if (ranges.empty()) return;
+  target.overlays.bind();
+  if (!target.hasOverlay) target.overlays.clearColor(0, vec4(0.0f));
+  target.hasOverlay = true;
+  if (view.chain) gl::setScissor(view.chain->bounds);
+  drawRanges(blended_, scene, streams, ranges, view, true);
+}
+
+void SurfacePass::drawRanges(gl::Program& program, const SceneBuffers& scene, const VertexStreams& streams,
+                             std::span<const DrawRange> ranges, const SurfaceView& view, bool blended) {
+  const scene::WorldGeometry& world = scene.geometry();
+  program.use();
+  scene.bindEnvironment(program);
+  scene.bindLights(program);
+  const char* samplers[5] = {"u_baseColor", "u_metallicRoughness", "u_normalMap", "u_occlusion",
+                             "u_emissive"};
+  for (int unit = 0; unit < 5; ++unit) program.set(samplers[unit], unit);
+  program.set("u_clipFromDraw", mat4(view.clipFromDraw));
+  program.set("u_eye", vec3(view.eye));
+  program.set("u_drawEye", vec3(view.drawEye));
+  program.set("u_windingFlipped", view.windingFlipped ? 1 : 0);
+  program.set("u_clipPlane", view.clipPlane);
+  program.set("u_hasParent", view.parent ? 1 : 0);
+  program.set("u_parentPosition", int(kUnitFirstFree) + 1);  // also where nothing is bound: kinds must differ
+  program.set("u_parentIds", int(kUnitFirstFree) + 3);
+  if (view.parent) view.parent->bindAsParent(program);
+  program.set("u_parentWord", view.chain ? view.chain->parentWord() : 0u);
+  streams.bind();
+  const std::uint32_t chainWord = view.chain ? view.chain->id << 16 : 0u;
+  for (const DrawRange& range : ranges) {
+    const scene::Part& part = world.parts[range.part];
+    if (range.indexCount == 0 || (part.reflector != core::kNoId && part.reflector == view.excludedReflector))
+      continue;
+    const scene::Material& material = scene.material(part.material);
+    const bool isReflector = part.reflector != core::kNoId;
+    program.set("u_objectWord", (part.object + 1u) | (part.shell ? 0x80000000u : 0u));
+    program.set("u_reflectorWord", (isReflector ? part.reflector + 1u : 0u) | chainWord);
+    program.set("u_reflectivity", isReflector ? world.reflectors[part.reflector].reflectivity : 0.0f);
+    program.set("u_clearcoat", isReflector ? world.reflectors[part.reflector].clearcoat : 0.0f);
+    const gl::Cull hidden = view.windingFlipped ? gl::Cull::Front : gl::Cull::Back;
+    gl::setDrawState({.depthTest = true,
+                      .depthWrite = !blended,
+                      .cull = material.doubleSided ? gl::Cull::None : hidden,
+                      .blendPremultiplied = blended});
+    scene.bindMaterial(part.material);
+    gl::drawTriangles(range.firstIndex, range.indexCount);
+  }
+}
+
+void sortBlendedTriangles(std::span<const DrawRange> ranges, std::span<const std::uint32_t> indices,
+                          std::span<const vec3> drawPositions, const dvec3& eye,
+                          std::vector<std::uint32_t>& sortedIndices, std::vector<DrawRange>& sortedRanges) {
+  struct Item {
+    double distance;
+    std::uint32_t part, firstIndex;
+  };
+  std::vector<Item> items;
+  for (const DrawRange& range : ranges)
+    for (std::uint32_t i = range.firstIndex; i < range.firstIndex + range.indexCount; i += 3) {
+      const dvec3 sum = dvec3(drawPositions[indices[i]]) + dvec3(drawPositions[indices[i + 1]]) +
+                        dvec3(drawPositions[indices[i + 2]]);
+      items.push_back({glm::length(sum / 3.0 - eye), range.part, i});
+    }
+  std::stable_sort(items.begin(), items.end(),
+                   [](const Item& a, const Item& b) { return a.distance > b.distance; });
+  sortedIndices.clear();
+  sortedRanges.clear();
+  for (const Item& item : items) {
+    if (sortedRanges.empty() || sortedRanges.back().part != item.part)
+      sortedRanges.push_back({item.part, std::uint32_t(sortedIndices.size()), 0});
+    for (std::uint32_t k = 0; k < 3; ++k) sortedIndices.push_back(indices[item.firstIndex + k]);
+    sortedRanges.back().indexCount += 3;
+  }
+}
+
+dmat4 makeClipFromWorld(const scene::CameraFrame& camera, double nearPlane, const dvec2& jitterPx) {
+  dmat4 shift(1.0);
+  shift[3] =
+      dvec4((1.0 - 2.0 * jitterPx.x) / camera.widthPx, (2.0 * jitterPx.y - 1.0) / camera.heightPx, 0.0, 1.0);
+  return shift * camera.clipFromView(nearPlane) * camera.viewFromWorld();
+}
+
+PrimaryPass::PrimaryPass(SurfacePass& surfaces)
+    : surfaces_(surfaces), background_("raster/screen.vert", "raster/background.frag") {}
+
+void PrimaryPass::draw(const SceneBuffers& scene, const scene::CameraFrame& camera, double nearPlane,
+                       const dvec2& jitterPx, Level& target, std::uint32_t excludedReflector) {
+  target.hasOverlay = false;
+  target.clear();
+  gl::setDrawState({.depthTest = false, .depthWrite = false});
+  background_.use();
+  scene.bindEnvironment(background_);
+  // gl_FragCoord counts from the lower left corner and points at pixel centres.
+  const dvec2 offset = jitterPx - 0.5;
+  background_.set("u_rayOrigin", vec3(camera.rayDirection(offset.x, camera.heightPx + offset.y)));
+  background_.set("u_rayDx", vec3(camera.rayDirectionDx()));
+  background_.set("u_rayDy", vec3(-camera.rayDirectionDy()));
+  nothing_.bind();
+  gl::drawScreen();
+
+  SurfaceView view;
+  view.clipFromDraw = makeClipFromWorld(camera, nearPlane, jitterPx);
+  view.eye = view.drawEye = camera.eye;
+  view.excludedReflector = excludedReflector;
+  surfaces_.draw(scene, scene.world(), scene.opaqueRanges(), view, target);
+  if (scene.blendedRanges().empty()) return;
+  if (!blendedStreams_) blendedStreams_ = std::make_unique<VertexStreams>(scene.geometry());
+  sortBlendedTriangles(scene.blendedRanges(), scene.geometry().indices, scene.geometry().positions,
+                       camera.eye, sortedIndices_, sortedRanges_);
+  blendedStreams_->setIndices(sortedIndices_, true);
+  surfaces_.drawBlended(scene, *blendedStreams_, sortedRanges_, view, target);
+}
+
+}  // namespace catoptric::raster

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws surfaces of the scene, seen directly or through a chain of mirrors, into a level.
+#pragma once
+
+#include <span>
+
+#include "catoptric/gl/program.h"
+#include "catoptric/raster/chain.h"
+#include "catoptric/raster/level.h"
+#include "catoptric/raster/scene_buffers.h"
+#include "catoptric/scene/camera_frame.h"
+
+namespace catoptric::raster {
+
+/// How points of draw space get to the screen.
+struct SurfaceView {
+  dmat4 clipFromDraw{1.0};
+  dvec3 eye{0};      ///< world (level 0)
+  dvec3 drawEye{0};  ///< the eye in draw space
+  bool windingFlipped = false;
+  const Chain* chain = nullptr;  ///< null: seen directly
+  const Level* parent = nullptr;
+  vec4 clipPlane{0.0f};  ///< world; zero = none
+  std::uint32_t excludedReflector = core::kNoId;
+};
+
+class SurfacePass {
+ public:
+  SurfacePass();
+
+  /// Opaque and masked parts.
+  void draw(const SceneBuffers& scene, const VertexStreams& streams, std::span<const DrawRange> ranges,
+            const SurfaceView& view, const Level& target);
+  /// Blended parts over it, in the order given (see sortBlendedTriangles()).
+  void drawBlended(const SceneBuffers& scene, const VertexStreams& streams, std::span<const DrawRange> ranges,
+                   const SurfaceView& view, Level& target);
+
+ private:
+  void drawRanges(gl::Program& program, const SceneBuffers& scene, const VertexStreams& streams,
+                  std::span<const DrawRange> ranges, const SurfaceView& view, bool blended);
+
+  gl::Program opaque_, blended_;
+};
+
+/// Orders the triangles of `ranges` from far to near, as seen from `eye`, and packs them into new ranges over
+/// `sortedIndices`.
+void sortBlendedTriangles(std::span<const DrawRange> ranges, std::span<const std::uint32_t> indices,
+                          std::span<const vec3> drawPositions, const dvec3& eye,
+                          std::vector<std::uint32_t>& sortedIndices, std::vector<DrawRange>& sortedRanges);
+
+/// Level 0: environment and scene seen from a camera; also used for the faces of environment maps.
+class PrimaryPass {
+ public:
+  explicit PrimaryPass(SurfacePass& surfaces);
+  /// `jitterPx`: where in the pixel the sample lies, (0.5, 0.5) = centre.
+  void draw(const SceneBuffers& scene, const scene::CameraFrame& camera, double nearPlane,
+            const dvec2& jitterPx, Level& target, std::uint32_t excludedReflector = core::kNoId);
+
+ private:
+  SurfacePass& surfaces_;
+  gl::Program background_;
+  gl::VertexArray nothing_;
+  std::unique_ptr<VertexStreams> blendedStreams_;
+  std::vector<std::uint32_t> sortedIndices_;
+  std::vector<DrawRange> sortedRanges_;
+};
+
+/// World to clip space with the sample moved to the pixel's centre.
+[[nodiscard]] dmat4 makeClipFromWorld(const scene::CameraFrame& camera, double nearPlane,
+                                      const dvec2& jitterPx);
+
+}  // namespace catoptric::raster

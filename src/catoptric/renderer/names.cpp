@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "catoptric/renderer/frame.h"
+
+namespace catoptric::renderer {
+
+std::string_view methodName(Method method) {
+  switch (method) {
+    case Method::Auto:
+      return "auto";
+    case Method::None:
+      return "none";
+    case Method::Environment:
+      return "environment";
+    case Method::Virtual:
+      return "virtual";
+    case Method::RayTrace:
+      return "raytrace";
+  }
+  return "?";
+}
+
+std::string_view solverName(Solver solver) {
+  switch (solver) {
+    case Solver::Auto:
+      return "auto";
+    case Solver::Explosion:
+      return "explosion";
+    case Solver::Refined:
+      return "refined";
+  }
+  return "?";
+}
+
+MethodChoice Renderer::chooseMethod(const scene::Reflector& reflector) {
+  if (reflector.shape == scene::ReflectorShape::Plane)
+    return {Method::Virtual, Solver::Auto, "flat: the scene is mirrored, exact at every pixel"};
+  if (reflector.isConvex)
+    return {Method::Virtual, Solver::Refined, "convex: one reflection point for every scene point"};
+  return {Method::Virtual, Solver::Refined,
+          "not convex: drawn as one piece, right where a point has one reflection only"};
+}
+
+}  // namespace catoptric::renderer

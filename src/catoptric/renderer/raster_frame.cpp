@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// Steps (1998, figure 1): 1 primary image, 2 which mirrors does the level show, 3 what each of them shows,
+// into the next level, 4 again for mirrors in mirrors, 5 blend from the last level to the first.
+#include "catoptric/renderer/raster_frame.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "catoptric/core/error.h"
+#include "catoptric/core/sample_pattern.h"
+
+namespace catoptric::renderer {
+namespace {
+
+constexpr std::uint32_t kMaxChains = 4096;  // ids have 16 bits for a chain
+
+double millisecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+double distanceToTriangle(const dvec3& p, const dvec3& a, const dvec3& b, const dvec3& c) {
+  // Conservative and cheap: the distance to the triangle's bounding sphere.
+  const dvec3 centre = (a + b + c) / 3.0;
+  const double radius =
+      std::sqrt(std::max({glm::dot(a - centre, a - centre), glm::dot(b - centre, b - centre),
+                          glm::dot(c - centre, c - centre)}));
+  return glm::length(p - centre) - radius;
+}
+
+/// Rows are stored bottom first on the GPU, top first in an Image.
+template <class Pixel, class Write>
+void forFlippedRows(const std::vector<Pixel>& pixels, int width, int height, const Write& write) {
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      write(x, y, pixels[std::size_t(height - 1 - y) * std::size_t(width) + std::size_t(x)]);
+}
+
+}  // namespace
+
+double chooseNearPlane(const scene::WorldGeometry& geometry, const scene::CameraFrame& camera) {
+  const double sceneRadius = geometry.bounds.isEmpty() ? 1.0 : std::max(geometry.bounds.radius(), 1e-6);
+  double nearest = sceneRadius;
+  for (std::size_t i = 0; i + 2 < geometry.indices.size(); i += 3)
+    nearest = std::min(nearest, distanceToTriangle(camera.eye, dvec3(geometry.positions[geometry.indices[i]]),
+                                                   dvec3(geometry.positions[geometry.indices[i + 1]]),
+                                                   dvec3(geometry.positions[geometry.indices[i + 2]])));
+  return std::max(0.3 * nearest, 2e-4 * sceneRadius);
+}
+
+RasterFrame::RasterFrame(gl::Context& context, const scene::Scene& scene,
+                         const scene::WorldGeometry& geometry, const scene::Environment& environment)
+    : context_(context),
+      geometry_(geometry),
+      scene_(scene, geometry, environment),
+      primary_(surfaces_),
+      virtual_(virtual_object::Solver::Refined) {
+  if (geometry.reflectors.size() >= 0xffffu)
+    throw core::Error("renderer.reflectors", "the scene has more than 65534 mirrors", {},
+                      "use --reflector NAME to pick some");
+}
+
+void RasterFrame::prepareLevels(int count, int widthPx, int heightPx) {
+  if (!levels_.empty() && (levels_[0]->widthPx != widthPx || levels_[0]->heightPx != heightPx))
+    levels_.clear();
+  while (int(levels_.size()) < count) levels_.push_back(std::make_unique<raster::Level>(widthPx, heightPx));
+}
+
+std::vector<raster::Chain> RasterFrame::findChains(const raster::Level& level,
+                                                   const std::vector<raster::Chain>& parents) {
+  const int width = level.widthPx, height = level.heightPx;
+  idsPixels_.resize(std::size_t(width) * std::size_t(height));
+  level.surfaces.readPixels(3, std::span<uvec2>(idsPixels_));
+  struct Extent {
+    int x0 = std::numeric_limits<int>::max(), y0 = std::numeric_limits<int>::max(), x1 = -1, y1 = -1;
+    std::uint64_t pixels = 0;
+  };
+  std::map<std::uint32_t, Extent> extents;  // by ids.g
+  std::uint32_t lastWord = 0;
+  Extent* lastExtent = nullptr;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const std::uint32_t word = idsPixels_[std::size_t(y) * std::size_t(width) + std::size_t(x)].y;
+      if ((word & 0xffffu) == 0) continue;
+      if (!lastExtent || word != lastWord) {
+        lastExtent = &extents[word];
+        lastWord = word;
+      }
+      lastExtent->x0 = std::min(lastExtent->x0, x);
+      lastExtent->x1 = std::max(lastExtent->x1, x);
+      lastExtent->y0 = std::min(lastExtent->y0, y);
+      lastExtent->y1 = std::max(lastExtent->y1, y);
+      ++lastExtent->pixels;
+    }
+  std::vector<raster::Chain> chains;
+  for (const auto& [word, extent] : extents) {
+    if (lastChain_ + 1 >= kMaxChains) break;  // the rest shows the environment
+    const auto parent = std::find_if(parents.begin(), parents.end(),
+                                     [id = word >> 16](const raster::Chain& c) { return c.id == id; });
+    if (parent == parents.end()) continue;
+    raster::Chain chain = raster::extendChain(*parent, (word & 0xffffu) - 1u, geometry_);
+    chain.id = ++lastChain_;
+    chain.bounds = {extent.x0, extent.y0, extent.x1 - extent.x0 + 1, extent.y1 - extent.y0 + 1};
+    chain.pixels = extent.pixels;
+    chains.push_back(chain);
+  }
+  return chains;
+}
+
+raster::ReflectionMethod* RasterFrame::pickMethod(const raster::Chain& chain, Method method) {
+  if (method == Method::Environment) return &environment_;
+  const std::array<raster::ReflectionMethod*, 3> table{&planar_, &virtual_, &environment_};
+  for (raster::ReflectionMethod* candidate : table)
+    if (candidate->supports(chain)) return candidate;
+  return nullptr;
+}
+
+void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOptions& options,
+                               const dvec2& jitterPx, Frame& frame) {
+  const auto start = std::chrono::steady_clock::now();
+  const int bounces = options.method == Method::None ? 0 : options.bounces;
+  raster::MethodCounters counters;
+  raster::FrameContext context{scene_,    camera,
+                               surfaces_, primary_,
+                               compose_,  chooseNearPlane(geometry_, camera),
+                               jitterPx,  options.maxErrorPx,
+                               counters};
+
+  // 1
+  primary_.draw(scene_, camera, context.nearPlane, jitterPx, *levels_[0]);
+  context_.finish();
+  frame.timings.primaryMs += millisecondsSince(start);
+
+  lastChain_ = 0;
+  planar_.prepare(context);
+  virtual_.prepare(context);
+  environment_.prepare(context);
+  std::vector<raster::Chain> parents{raster::makeEyeChain()};
+  int levelCount = 1;
+  std::uint64_t visibleReflectors = 0;
+  for (int level = 0; level < bounces; ++level) {
+    // 2
+    const std::vector<raster::Chain> chains = findChains(*levels_[std::size_t(level)], parents);
+    if (level == 0) visibleReflectors = chains.size();
+    if (chains.empty()) break;
+    prepareLevels(level + 2, options.widthPx, options.heightPx);
+    // 3, 4
+    raster::Level& target = *levels_[std::size_t(level) + 1];
+    target.hasOverlay = false;
+    target.clear();
+    for (const raster::Chain& chain : chains)
+      if (raster::ReflectionMethod* method = pickMethod(chain, options.method))
+        method->render(context, chain, *levels_[std::size_t(level)], target);
+    ++levelCount;
+    parents = chains;
+  }
+
+  // 5
+  for (int level = levelCount - 1; level >= 0; --level)
+    compose_.draw(scene_, *levels_[std::size_t(level)],
+                  level + 1 < levelCount ? levels_[std::size_t(level) + 1].get() : nullptr);
+  context_.finish();
+  context_.check("a frame");
+  frame.timings.totalMs += millisecondsSince(start);
+  frame.timings.virtualVerticesMs += counters.virtualVerticesMs;
+  frame.timings.reflectionMs = frame.timings.totalMs - frame.timings.primaryMs;
+  frame.counters.virtualVertices += counters.virtualVertices;
+  frame.counters.virtualTriangles += counters.virtualTriangles;
+  frame.counters.reflectorsDrawn = visibleReflectors;
+  frame.counters.reflectorsCulled = geometry_.reflectors.size() - visibleReflectors;
+}
+
+void RasterFrame::readSeen(const raster::Level& level, Frame& frame) const {
+  const int width = level.widthPx, height = level.heightPx;
+  std::vector<vec4> points(std::size_t(width) * std::size_t(height));
+  std::vector<uvec2> ids(points.size());
+  level.composed.readPixels(1, std::span<vec4>(points));
+  level.composed.readPixels(2, std::span<uvec2>(ids));
+  frame.seen = core::SeenImage(width, height);
+  forFlippedRows(points, width, height, [&](int x, int y, const vec4& p) {
+    core::SeenPixel& seen = frame.seen.at(x, y);
+    seen.point = vec3(p);
+    seen.pathLength = p.w;
+  });
+  forFlippedRows(ids, width, height, [&](int x, int y, const uvec2& id) {
+    core::SeenPixel& seen = frame.seen.at(x, y);
+    const std::uint32_t object = id.x & 0x7fffffffu, reflector = id.y & 0xffffu;
+    seen.object = object == 0 ? core::kNoId : object - 1;
+    seen.shell = id.x >> 31;
+    seen.firstReflector = reflector == 0 ? core::kNoId : reflector - 1;
+    seen.bounces = id.y >> 16;
+    if (seen.isSky()) seen.pathLength = std::numeric_limits<float>::infinity();
+  });
+}
+
+Frame RasterFrame::render(const scene::CameraFrame& camera, const FrameOptions& options) {
+  Frame frame;
+  const int samples = std::max(1, options.samples);
+  prepareLevels(1, options.widthPx, options.heightPx);
+  virtual_.setSolver(options.solver == Solver::Explosion ? virtual_object::Solver::Explosion
+                                                         : virtual_object::Solver::Refined);
+  environment_.setOptions(options.environmentMapSize, options.boxCorrected);
+  frame.radiance = core::ImageRgbaF(options.widthPx, options.heightPx, vec4(0, 0, 0, 1));
+  std::vector<vec4> pixels(frame.radiance.size());
+  const raster::Level& level = *levels_[0];
+  for (int i = 0; i < samples; ++i) {
+    renderSample(camera, options, core::samplePosition(i, samples), frame);
+    level.composed.readPixels(0, std::span<vec4>(pixels));
+    forFlippedRows(pixels, options.widthPx, options.heightPx, [&](int x, int y, const vec4& p) {
+      frame.radiance.at(x, y) += vec4(vec3(p) / float(samples), 0.0f);
+    });
+  }
+  if (options.withSeen) {
+    if (samples > 1) {  // what is seen is sampled at the pixel centre; its time is not the frame's
+      Frame centre;
+      renderSample(camera, options, dvec2(0.5, 0.5), centre);
+    }
+    readSeen(level, frame);
+  }
+  return frame;
+}
+
+}  // namespace catoptric::renderer

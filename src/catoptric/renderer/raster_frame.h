@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// A rasterised frame (1998, figure 1): primary image, then level after level of mirrors, then composition.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "catoptric/environment_map/environment_map_method.h"
+#include "catoptric/gl/context.h"
+#include "catoptric/planar_mirror/planar_mirror_method.h"
+#include "catoptric/renderer/frame.h"
+#include "catoptric/virtual_object/virtual_object_method.h"
+
+namespace catoptric::renderer {
+
+class RasterFrame {
+ public:
+  /// Needs a current context; arguments must outlive the object.
+  RasterFrame(gl::Context& context, const scene::Scene& scene, const scene::WorldGeometry& geometry,
+              const scene::Environment& environment);
+
+  [[nodiscard]] Frame render(const scene::CameraFrame& camera, const FrameOptions& options);
+
+ private:
+  void prepareLevels(int count, int widthPx, int heightPx);
+  void renderSample(const scene::CameraFrame& camera, const FrameOptions& options, const dvec2& jitterPx,
+                    Frame& frame);
+  /// Chains that the mirrors visible in a level begin; from the level's ids.
+  [[nodiscard]] std::vector<raster::Chain> findChains(const raster::Level& level,
+                                                      const std::vector<raster::Chain>& parents);
+  [[nodiscard]] raster::ReflectionMethod* pickMethod(const raster::Chain& chain, Method method);
+  void readSeen(const raster::Level& level, Frame& frame) const;
+
+  gl::Context& context_;
+  const scene::WorldGeometry& geometry_;
+  raster::SceneBuffers scene_;
+  raster::SurfacePass surfaces_;
+  raster::PrimaryPass primary_;
+  raster::ComposePass compose_;
+  planar_mirror::PlanarMirrorMethod planar_;
+  virtual_object::VirtualObjectMethod virtual_;
+  environment_map::EnvironmentMapMethod environment_;
+  std::vector<std::unique_ptr<raster::Level>> levels_;
+  std::vector<uvec2> idsPixels_;
+  std::uint32_t lastChain_ = 0;
+};
+
+/// Near plane for a view: half the distance to the nearest surface, within sane bounds.
+[[nodiscard]] double chooseNearPlane(const scene::WorldGeometry& geometry, const scene::CameraFrame& camera);
+
+}  // namespace catoptric::renderer

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdlib>
+
+#include "catoptric/reference/ray_tracer.h"
+#include "catoptric/renderer/frame.h"
+#include "catoptric/renderer/raster_frame.h"
+
+namespace catoptric::renderer {
+
+struct Renderer::Impl {
+  const scene::Scene& scene;
+  const scene::WorldGeometry& geometry;
+  const scene::Environment& environment;
+  std::unique_ptr<gl::Context> context;
+  std::unique_ptr<RasterFrame> raster;  // after the context: its buffers go first
+  std::unique_ptr<reference::RayTracer> tracer;
+  reference::TraceResult traced;
+
+  gl::Context& getContext() {
+    if (!context)
+      context = std::make_unique<gl::Context>(
+          gl::ContextOptions{.debug = std::getenv("CATOPTRIC_GL_DEBUG") != nullptr});
+    return *context;
+  }
+  reference::RayTracer& getTracer() {
+    if (!tracer) tracer = std::make_unique<reference::RayTracer>(scene, geometry, environment);
+    return *tracer;
+  }
+
+  Frame trace(const scene::CameraFrame& camera, const FrameOptions& options) {
+    getTracer().trace(camera,
+                      {.bounces = options.bounces,
+                       .samples = options.samples,
+                       .withSeen = options.withSeen,
+                       .withFootprints = options.withSeen},
+                      traced);
+    Frame frame;
+    frame.radiance = traced.radiance;
+    frame.seen = traced.seen;
+    frame.footprints = traced.footprints;
+    frame.counters.rays = traced.rays;
+    frame.timings.totalMs = traced.seconds * 1e3;
+    return frame;
+  }
+};
+
+Renderer::Renderer(const scene::Scene& scene, const scene::WorldGeometry& geometry,
+                   const scene::Environment& environment)
+    : impl_(new Impl{scene, geometry, environment, nullptr, nullptr, nullptr, {}}) {}
+
+Renderer::~Renderer() {
+  if (impl_->context) impl_->context->makeCurrent();
+}
+
+Frame Renderer::render(const scene::Camera& camera, const FrameOptions& options) {
+  const scene::CameraFrame view = scene::makeCameraFrame(camera, options.widthPx, options.heightPx);
+  if (options.method == Method::RayTrace) return impl_->trace(view, options);
+  gl::Context& context = impl_->getContext();
+  context.makeCurrent();
+  if (!impl_->raster)
+    impl_->raster = std::make_unique<RasterFrame>(context, impl_->scene, impl_->geometry, impl_->environment);
+  return impl_->raster->render(view, options);
+}
+
+std::string Renderer::describeGl() {
+  return impl_->getContext().description();
+}
+
+std::string Renderer::describeRayTracer() {
+  return impl_->getTracer().describe();
+}
+
+}  // namespace catoptric::renderer

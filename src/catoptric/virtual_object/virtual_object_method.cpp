@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// Steps: 1 environment in the mirror direction, 2 virtual vertices on the CPU, 3 draw the virtual object
+// where the level before shows the mirror, dropping fragments before the mirror's own depth.
+#include "catoptric/virtual_object/virtual_object_method.h"
+
+#include <chrono>
+
+namespace catoptric::virtual_object {
+
+VirtualObjectMethod::Prepared::Prepared(const scene::WorldGeometry& world, std::uint32_t reflector,
+                                        bool flipped, double maxError)
+    : maxErrorPx(maxError),
+      mesh(world, reflector, ReflectorMeshOptions{.flipped = flipped}),
+      objects(tessellateForReflector(world, reflector, TessellationOptions{.maxErrorPx = maxError})),
+      streams(objects),
+      blendedStreams(objects),
+      virtualPositions(objects.positions.size()),
+      reflectionPoints(objects.positions.size()),
+      kinds(objects.positions.size()) {}
+
+VirtualObjectMethod::Prepared& VirtualObjectMethod::prepareReflector(const raster::FrameContext& frame,
+                                                                     const raster::Chain& chain,
+                                                                     const dvec3& drawEye) {
+  const scene::WorldGeometry& world = frame.scene.geometry();
+  const scene::Reflector& reflector = world.reflectors[*chain.curved];
+  bool flipped = false;
+  if (reflector.doubleSided) {  // which side does the eye see? the one most triangles turn to it
+    const scene::Part& part = world.parts[reflector.part];
+    double facing = 0;
+    for (std::uint32_t i = part.firstIndex; i < part.firstIndex + part.indexCount; ++i) {
+      const std::uint32_t v = world.indices[i];
+      const dvec3 toEye = drawEye - dvec3(world.positions[v]);
+      facing += glm::dot(dvec3(world.normals[v]), toEye) > 0.0 ? 1.0 : -1.0;
+    }
+    flipped = facing < 0;
+  }
+  std::unique_ptr<Prepared>& slot = prepared_[{*chain.curved, flipped}];
+  if (!slot || slot->maxErrorPx != frame.maxErrorPx)
+    slot = std::make_unique<Prepared>(world, *chain.curved, flipped, frame.maxErrorPx);
+  return *slot;
+}
+
+void VirtualObjectMethod::computeVirtualVertices(raster::FrameContext& frame, const raster::Chain& chain,
+                                                 const dvec3& drawEye, Prepared& prepared) const {
+  const auto start = std::chrono::steady_clock::now();
+  if (!prepared.solver) {
+    const core::Box& bounds = frame.scene.geometry().bounds;
+    const double farRadius = glm::length(bounds.centre() - prepared.mesh.centre()) + bounds.radius();
+    prepared.solver = std::make_unique<VirtualObjectSolver>(prepared.mesh, drawEye, farRadius);
+  } else if (prepared.solver->eye() != drawEye) {
+    prepared.solver->setEye(drawEye);
+  }
+  std::span<const vec3> points = prepared.objects.positions;
+  if (chain.drawFromWorld != dmat4(1.0)) {
+    prepared.scenePoints.resize(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+      prepared.scenePoints[i] = vec3(dvec3(chain.drawFromWorld * dvec4(dvec3(points[i]), 1.0)));
+    points = prepared.scenePoints;
+  }
+  prepared.solver->compute(solver_, points, prepared.virtualPositions, prepared.kinds,
+                           prepared.reflectionPoints);
+  const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+  frame.counters.virtualVertices += points.size();
+  frame.counters.virtualVerticesMs += spent.count();
+}
+
+void VirtualObjectMethod::render(raster::FrameContext& frame, const raster::Chain& chain,
+                                 const raster::Level& parent, raster::Level& target) {
+  // 1
+  background_.draw(frame.scene, chain, parent, target);
+
+  // 2
+  const dvec3 drawEye = dvec3(glm::inverse(chain.screenFromDraw) * dvec4(frame.camera.eye, 1.0));
+  Prepared& p = prepareReflector(frame, chain, drawEye);
+  if (p.objects.indices.empty()) return;
+  computeVirtualVertices(frame, chain, drawEye, p);
+  if (!p.solver->canReflect()) return;
+  selectVirtualTriangles(p.objects, drawEye, p.virtualPositions, p.kinds, p.reflectionPoints, p.triangles);
+  frame.counters.virtualTriangles += p.triangles.indices.size() / 3;
+
+  // 3
+  p.streams.setDrawPositions(p.virtualPositions);
+  p.streams.setIndices(p.triangles.indices, true);
+  p.opaque.clear();
+  p.blended.clear();
+  for (const TessellatedPart& part : p.triangles.parts)
+    (frame.scene.isBlended(part.part) ? p.blended : p.opaque)
+        .push_back({part.part, part.firstIndex, part.indexCount});
+  raster::SurfaceView view;
+  view.clipFromDraw =
+      raster::makeClipFromWorld(frame.camera, frame.nearPlane, frame.jitterPx) * chain.screenFromDraw;
+  view.eye = view.drawEye = drawEye;
+  view.windingFlipped = chain.level % 2 == 1;
+  view.chain = &chain;
+  view.parent = &parent;
+  const scene::WorldGeometry& world = frame.scene.geometry();
+  if (chain.last !=
+      *chain.curved) {  // a flat mirror seen in the curved one: what is before it, as the curved one is
+    const scene::Reflector& mirror = world.reflectors[chain.last];
+    const double side =
+        mirror.plane.signedDistance(world.reflectors[*chain.curved].centre) > 0.0 ? 1.0 : -1.0;
+    view.clipPlane = vec4(vec3(side * mirror.plane.normal), float(side * mirror.plane.offset));
+    view.excludedReflector = chain.last;
+  }
+  frame.surfaces.draw(frame.scene, p.streams, p.opaque, view, target);
+  if (p.blended.empty()) return;
+  raster::sortBlendedTriangles(p.blended, p.triangles.indices, p.virtualPositions, drawEye, p.sortedIndices,
+                               p.sorted);
+  p.blendedStreams.setDrawPositions(p.virtualPositions);
+  p.blendedStreams.setIndices(p.sortedIndices, true);
+  frame.surfaces.drawBlended(frame.scene, p.blendedStreams, p.sorted, view, target);
+}
+
+}  // namespace catoptric::virtual_object

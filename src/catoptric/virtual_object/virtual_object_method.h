@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws virtual objects: for a chain of mirrors with one curved link, every vertex of the tessellated scene
+// is moved to its virtual vertex, and the result is rasterised into the mirror's pixels (1998, figures 1 and
+// 3).
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "catoptric/raster/reflection_method.h"
+#include "catoptric/virtual_object/reflector_mesh.h"
+#include "catoptric/virtual_object/tessellation.h"
+#include "catoptric/virtual_object/virtual_object_solver.h"
+#include "catoptric/virtual_object/virtual_triangles.h"
+
+namespace catoptric::virtual_object {
+
+class VirtualObjectMethod : public raster::ReflectionMethod {
+ public:
+  explicit VirtualObjectMethod(Solver solver) : solver_(solver) {}
+  [[nodiscard]] std::string_view name() const override { return "virtual"; }
+  [[nodiscard]] bool supports(const raster::Chain& chain) const override {
+    return chain.curved.has_value() && !chain.hasSecondCurved;
+  }
+  void setSolver(Solver solver) { solver_ = solver; }
+  void prepare(raster::FrameContext&) override {}
+  void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
+              raster::Level& target) override;
+
+ private:
+  /// Everything kept for one curved reflector from frame to frame.
+  struct Prepared {
+    Prepared(const scene::WorldGeometry& world, std::uint32_t reflector, bool flipped, double maxErrorPx);
+    double maxErrorPx;
+    ReflectorMesh mesh;
+    TessellatedObjects objects;
+    raster::VertexStreams streams, blendedStreams;
+    std::unique_ptr<VirtualObjectSolver> solver;
+    std::vector<vec3> scenePoints;  ///< vertices mirrored by the planar links behind the curved one
+    std::vector<vec3> virtualPositions, reflectionPoints;
+    std::vector<VertexKind> kinds;
+    VirtualTriangles triangles;
+    std::vector<raster::DrawRange> opaque, blended, sorted;
+    std::vector<std::uint32_t> sortedIndices;
+  };
+  Prepared& prepareReflector(const raster::FrameContext& frame, const raster::Chain& chain,
+                             const dvec3& drawEye);
+  void computeVirtualVertices(raster::FrameContext& frame, const raster::Chain& chain, const dvec3& drawEye,
+                              Prepared& prepared) const;
+
+  Solver solver_;
+  raster::MirrorBackgroundPass background_;
+  std::map<std::pair<std::uint32_t, bool>, std::unique_ptr<Prepared>>
+      prepared_;  ///< reflector, seen from behind
+};
+
+}  // namespace catoptric::virtual_object
