@@ -19,21 +19,21 @@ enum class ReflectorShape : std::uint8_t { Plane, Sphere, Cylinder, Cone, Mesh }
 
 /// A mirror surface: one flat facet, or one smoothly connected curved piece of an instance.
 struct Reflector {
-  std::string name;                   ///< instance name, "#k" appended when the instance has several
+  std::string name;  ///< instance name, "#k" appended when the instance has several
   ReflectorShape shape = ReflectorShape::Mesh;
-  std::string reason;                 ///< why it is one: "material: metallic 1, roughness 0", "extras.catoptric", ...
-  core::Plane plane;                  ///< valid when shape == Plane; normal on the bright side
+  std::string reason;  ///< why it is one: "material: metallic 1, roughness 0", "extras.catoptric", ...
+  core::Plane plane;   ///< valid when shape == Plane; normal on the bright side
   bool doubleSided = false;
-  float reflectivity = 1;             ///< Surface::reflectivity for its mirror lobe; 0 when it mirrors by clearcoat
-  float clearcoat = 0;                ///< Surface::clearcoat; 0 unless it mirrors by clearcoat
-  std::uint32_t object = core::kNoId; ///< index of the instance
+  float reflectivity = 1;  ///< Surface::reflectivity for its mirror lobe; 0 when it mirrors by clearcoat
+  float clearcoat = 0;     ///< Surface::clearcoat; 0 unless it mirrors by clearcoat
+  std::uint32_t object = core::kNoId;  ///< index of the instance
   int material = -1;
-  std::uint32_t part = 0;             ///< index into WorldGeometry::parts: its triangles
-  dvec3 centre{0};                    ///< centre of its bounding sphere
+  std::uint32_t part = 0;  ///< index into WorldGeometry::parts: its triangles
+  dvec3 centre{0};         ///< centre of its bounding sphere
   double radius = 0;
   double areaWorld = 0;
-  double fitError = 0;                ///< largest distance of a vertex from the recognised shape, world units
-  bool isConvex = false;              ///< convex seen from its bright side (to within tessellation)
+  double fitError = 0;    ///< largest distance of a vertex from the recognised shape, world units
+  bool isConvex = false;  ///< convex seen from its bright side (to within tessellation)
 };
 
 /// A run of triangles with one material, one object and at most one reflector.
@@ -41,39 +41,41 @@ struct Part {
   std::uint32_t firstIndex = 0, indexCount = 0;    ///< into WorldGeometry::indices
   std::uint32_t firstVertex = 0, vertexCount = 0;  ///< its vertices; not shared with other parts
   int material = -1;
-  std::uint32_t object = 0;                        ///< index into Scene::instances
-  std::uint32_t reflector = core::kNoId;           ///< index into WorldGeometry::reflectors
-  bool shell = false;                              ///< shell of the room, see methods.md section 6
+  std::uint32_t object = 0;               ///< index into Scene::instances
+  std::uint32_t reflector = core::kNoId;  ///< index into WorldGeometry::reflectors
+  bool shell = false;                     ///< shell of the room, see methods.md section 6
 };
 
 struct WorldGeometry {
   std::vector<vec3> positions;
   std::vector<vec3> normals;
-  std::vector<vec4> tangents;           ///< zero where absent
-  std::vector<vec2> uv0, uv1;           ///< zero where absent
-  std::vector<vec4> colors;             ///< one where absent
-  std::vector<std::uint32_t> indices;   ///< winding already flipped for negative scales
+  std::vector<vec4> tangents;                ///< zero where absent
+  std::vector<vec2> uv0, uv1;                ///< zero where absent
+  std::vector<vec4> colors;                  ///< one where absent
+  std::vector<std::uint32_t> indices;        ///< winding already flipped for negative scales
   std::vector<std::uint32_t> triangleParts;  ///< part of each triangle
   std::vector<Part> parts;
   std::vector<Reflector> reflectors;
   core::Box bounds;
-  std::uint64_t droppedTriangles = 0;   ///< degenerate ones
+  std::uint64_t droppedTriangles = 0;  ///< degenerate ones
 
   [[nodiscard]] std::size_t triangleCount() const { return indices.size() / 3; }
 };
 
 struct ReflectorOptions {
-  float minMetallic = 0.9f;      ///< --reflector-metallic
-  float maxRoughness = 0.05f;    ///< --reflector-roughness
-  double planeTolerance = 1e-4;  ///< flat if no vertex leaves the plane by more than this times the radius and ...
-  double normalTolerance = 2e-3; ///< ... no vertex normal by more than this angle, radians
-  std::vector<std::string> only; ///< if not empty: names (of reflectors, instances or materials) to keep (--reflector)
+  float minMetallic = 0.9f;    ///< --reflector-metallic
+  float maxRoughness = 0.05f;  ///< --reflector-roughness
+  double planeTolerance =
+      1e-4;  ///< flat if no vertex leaves the plane by more than this times the radius and ...
+  double normalTolerance = 2e-3;  ///< ... no vertex normal by more than this angle, radians
+  std::vector<std::string>
+      only;  ///< if not empty: names (of reflectors, instances or materials) to keep (--reflector)
 };
 
-/// Flattens instances into world space, splits off the reflectors and recognises their shape. Triangles of zero
-/// area, with a non-finite vertex or a coordinate beyond 1e15 are dropped and counted. Part::material is never -1
-/// unless the scene has no materials. Deterministic. Throws core::Error("reflector.unknown") when a name in
-/// `options.only` matches nothing.
+/// Flattens instances into world space, splits off the reflectors and recognises their shape. Triangles of
+/// zero area, with a non-finite vertex or a coordinate beyond 1e15 are dropped and counted. Part::material is
+/// never -1 unless the scene has no materials. Deterministic. Throws core::Error("reflector.unknown") when a
+/// name in `options.only` matches nothing.
 [[nodiscard]] WorldGeometry makeWorldGeometry(const Scene& scene, const ReflectorOptions& options = {});
 
 }  // namespace catoptric::scene
