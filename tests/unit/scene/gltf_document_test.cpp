@@ -149,8 +149,8 @@ TEST(GltfErrors, SaysWhatIsMissingOfATruncatedBuffer) {
 }
 
 TEST(GltfLimits, MemoryIsRefusedBeforeItIsAllocated) {
-  Document zeros;  // an accessor without a buffer view is all zeros: 4 bytes of JSON, terabytes of memory
-  zeros.json["accessors"] = {{{"componentType", 5126}, {"type", "VEC3"}, {"count", 1000000000000}}};
+  Document zeros;  // an accessor without a buffer view is all zeros: a line of JSON, gigabytes of memory
+  zeros.json["accessors"] = {{{"componentType", 5126}, {"type", "VEC3"}, {"count", 1000000000}}};
   zeros.addPrimitive({{"POSITION", 0}});
   EXPECT_EQ(importError(zeros)->code(), "gltf.memory");
 
