@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Everything we build on, all Debian 12 packages (packaging/system-packages.txt).
 find_package(PkgConfig REQUIRED)
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
 find_package(Threads REQUIRED)
 find_package(TBB REQUIRED)
 find_package(fmt REQUIRED)

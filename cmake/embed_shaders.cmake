@@ -3,7 +3,6 @@
 file(GLOB_RECURSE CATOPTRIC_SHADERS CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/*.glsl
      ${CMAKE_SOURCE_DIR}/shaders/*.vert ${CMAKE_SOURCE_DIR}/shaders/*.frag)
 set(CATOPTRIC_EMBEDDED_SHADERS ${CMAKE_BINARY_DIR}/embedded_shaders.cpp)
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_custom_command(
   OUTPUT ${CATOPTRIC_EMBEDDED_SHADERS}
   COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/scripts/embed_shaders.py ${CMAKE_SOURCE_DIR}/shaders

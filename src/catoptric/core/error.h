@@ -13,7 +13,8 @@ namespace catoptric::core {
 class Error : public std::runtime_error {
  public:
   /// `code` is a stable machine word such as "gltf.index_out_of_range"; `pointer` a JSON pointer to the
-  /// offending element of the input, empty if there is none; `hint` what to do, empty if nothing is to be said.
+  /// offending element of the input, empty if there is none; `hint` what to do, empty if nothing is to be
+  /// said.
   Error(std::string code, const std::string& message, std::string pointer = {}, std::string hint = {})
       : std::runtime_error(join(message, pointer, hint)),
         code_(std::move(code)),

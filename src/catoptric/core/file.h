@@ -10,8 +10,8 @@
 
 namespace catoptric::core {
 
-/// Reads a whole regular file. Throws Error("file.*") if it cannot be read, is not a regular file or is larger
-/// than maxBytes.
+/// Reads a whole regular file. Throws Error("file.*") if it cannot be read, is not a regular file or is
+/// larger than maxBytes.
 [[nodiscard]] std::vector<std::byte> readFile(const std::filesystem::path& path,
                                               std::size_t maxBytes = std::size_t(4) << 30);
 

@@ -25,12 +25,14 @@ void setThreadCount(int count) {
   arenaSlot() = count > 0 ? std::make_unique<tbb::task_arena>(count) : std::make_unique<tbb::task_arena>();
 }
 
-void parallelFor(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
+void parallelFor(std::size_t count, std::size_t grain,
+                 const std::function<void(std::size_t, std::size_t)>& body) {
   if (count == 0) return;
   if (grain == 0) grain = 1;
   arenaSlot()->execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
-                      [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, count, grain),
+        [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); });
   });
 }
 

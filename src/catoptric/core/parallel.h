@@ -13,6 +13,7 @@ void setThreadCount(int count);
 
 /// Calls body(begin, end) on disjoint ranges that cover [0, count), each at most about `grain` long, on all
 /// threads of the arena; returns when all are done. An exception thrown by body is rethrown here.
-void parallelFor(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body);
+void parallelFor(std::size_t count, std::size_t grain,
+                 const std::function<void(std::size_t, std::size_t)>& body);
 
 }  // namespace catoptric::core

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a frame shows, not how bright it is: which world point is seen at each pixel, through how many mirrors.
-// The raster methods and the ray-traced truth both fill this; the metrics compare the two (methods.md, section 6).
+// What a frame shows, not how bright it is: which world point is seen at each pixel, through how many
+// mirrors. The raster methods and the ray-traced truth both fill this; the metrics compare the two
+// (methods.md, section 6).
 #pragma once
 
 #include <cstdint>
@@ -18,8 +19,8 @@ struct SeenPixel {
   std::uint32_t triangle = kNoId;        ///< Index of the world triangle; kNoId = sky.
   std::uint32_t firstReflector = kNoId;  ///< Index of the reflector hit first; kNoId = pixel shows no mirror.
   std::uint32_t bounces = 0;             ///< Mirror bounces between the eye and the point.
-  std::uint32_t shell = 0;               ///< 1 where the object belongs to the shell of the room (walls, floor, road).
-  float pathLength = 0;                  ///< Length of the path from the eye; infinity for the sky.
+  std::uint32_t shell = 0;  ///< 1 where the object belongs to the shell of the room (walls, floor, road).
+  float pathLength = 0;     ///< Length of the path from the eye; infinity for the sky.
 
   [[nodiscard]] bool isSky() const { return object == kNoId; }
   [[nodiscard]] bool isMirror() const { return firstReflector != kNoId; }

@@ -45,8 +45,8 @@ glm::u8vec4 toneMap(const vec4& linear, float exposure) {
     if (!(colour[i] > 0.0f)) colour[i] = 0.0f;  // catches NaN too
   colour = glm::min(colour, vec3(1e6f));
   colour = compressHighlights(colour);
-  return {toByte(srgbFromLinear(colour.r)), toByte(srgbFromLinear(colour.g)), toByte(srgbFromLinear(colour.b)),
-          toByte(linear.a)};
+  return {toByte(srgbFromLinear(colour.r)), toByte(srgbFromLinear(colour.g)),
+          toByte(srgbFromLinear(colour.b)), toByte(linear.a)};
 }
 
 ImageRgba8 toneMap(const ImageRgbaF& linear, float exposure) {

@@ -6,9 +6,9 @@
 
 namespace catoptric::core {
 
-/// Khronos PBR Neutral tone mapping (colours below 0.8 stay as they are, highlights are compressed towards white
-/// without a change of hue), then the sRGB transfer function, rounded to 8 bits. `exposure` multiplies radiance
-/// first; NaN and negative values become 0. Alpha is passed through.
+/// Khronos PBR Neutral tone mapping (colours below 0.8 stay as they are, highlights are compressed towards
+/// white without a change of hue), then the sRGB transfer function, rounded to 8 bits. `exposure` multiplies
+/// radiance first; NaN and negative values become 0. Alpha is passed through.
 [[nodiscard]] glm::u8vec4 toneMap(const vec4& linear, float exposure = 1.0f);
 [[nodiscard]] ImageRgba8 toneMap(const ImageRgbaF& linear, float exposure = 1.0f);
 

@@ -104,6 +104,24 @@ BoundingSphere computeBoundingSphere(std::span<const vec3> points) {
   return best;
 }
 
+double computeDistanceToTriangle(const dvec3& point, const dvec3& a, const dvec3& b, const dvec3& c) {
+  // Over the inside the foot of the perpendicular is nearest, else a point of an edge.
+  const dvec3 normal = glm::cross(b - a, c - a);
+  const double squaredArea = glm::dot(normal, normal);
+  const auto isInside = [&](const dvec3& from, const dvec3& to) {
+    return glm::dot(glm::cross(to - from, point - from), normal) >= 0.0;
+  };
+  if (squaredArea > 0.0 && isInside(a, b) && isInside(b, c) && isInside(c, a))
+    return std::abs(glm::dot(point - a, normal)) / std::sqrt(squaredArea);
+  const auto distanceToEdge = [&](const dvec3& from, const dvec3& to) {
+    const dvec3 along = to - from;
+    const double squared = glm::dot(along, along);
+    const double t = squared > 0.0 ? std::clamp(glm::dot(point - from, along) / squared, 0.0, 1.0) : 0.0;
+    return glm::length(point - (from + t * along));
+  };
+  return std::min({distanceToEdge(a, b), distanceToEdge(b, c), distanceToEdge(c, a)});
+}
+
 double computeArea(const MeshView& mesh) {
   double area = 0;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {

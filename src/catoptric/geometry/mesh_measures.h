@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Size and convexity of a triangle mesh.
+// Size and convexity of a triangle mesh, distance to a triangle.
 #pragma once
 
 #include <span>
@@ -17,6 +17,11 @@ struct BoundingSphere {
 /// Holds every point; a few per cent larger than the smallest one at most (Ritter 1990, then steps of Badoiu
 /// & Clarkson 2003 towards the farthest point). Deterministic.
 [[nodiscard]] BoundingSphere computeBoundingSphere(std::span<const vec3> points);
+
+/// From a point to the nearest point of a triangle, also of one that is a line or a point (Ericson 2005,
+/// section 5.1.5).
+[[nodiscard]] double computeDistanceToTriangle(const dvec3& point, const dvec3& a, const dvec3& b,
+                                               const dvec3& c);
 
 [[nodiscard]] double computeArea(const MeshView& mesh);
 

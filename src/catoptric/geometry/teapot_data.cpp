@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Control points of the Utah teapot, in the public domain: Martin Newell, University of Utah, 1975 (28 patches);
-// the bottom (4 patches) was added by Frank Crow in 1987. Read from the tea set that Juhana Kouhia published in 1991;
-// equal points are stored once.
+// Control points of the Utah teapot, in the public domain: Martin Newell, University of Utah, 1975 (28
+// patches); the bottom (4 patches) was added by Frank Crow in 1987. Read from the tea set that Juhana Kouhia
+// published in 1991; equal points are stored once.
 #include "catoptric/geometry/teapot_data.h"
 
 namespace catoptric::geometry {

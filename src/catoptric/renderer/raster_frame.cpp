@@ -11,6 +11,7 @@
 
 #include "catoptric/core/error.h"
 #include "catoptric/core/sample_pattern.h"
+#include "catoptric/geometry/mesh_measures.h"
 
 namespace catoptric::renderer {
 namespace {
@@ -19,15 +20,6 @@ constexpr std::uint32_t kMaxChains = 4096;  // ids have 16 bits for a chain
 
 double millisecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
-double distanceToTriangle(const dvec3& p, const dvec3& a, const dvec3& b, const dvec3& c) {
-  // Conservative and cheap: the distance to the triangle's bounding sphere.
-  const dvec3 centre = (a + b + c) / 3.0;
-  const double radius =
-      std::sqrt(std::max({glm::dot(a - centre, a - centre), glm::dot(b - centre, b - centre),
-                          glm::dot(c - centre, c - centre)}));
-  return glm::length(p - centre) - radius;
 }
 
 /// Rows are stored bottom first on the GPU, top first in an Image.
@@ -43,11 +35,21 @@ void forFlippedRows(const std::vector<Pixel>& pixels, int width, int height, con
 double chooseNearPlane(const scene::WorldGeometry& geometry, const scene::CameraFrame& camera) {
   const double sceneRadius = geometry.bounds.isEmpty() ? 1.0 : std::max(geometry.bounds.radius(), 1e-6);
   double nearest = sceneRadius;
-  for (std::size_t i = 0; i + 2 < geometry.indices.size(); i += 3)
-    nearest = std::min(nearest, distanceToTriangle(camera.eye, dvec3(geometry.positions[geometry.indices[i]]),
-                                                   dvec3(geometry.positions[geometry.indices[i + 1]]),
-                                                   dvec3(geometry.positions[geometry.indices[i + 2]])));
-  return std::max(0.3 * nearest, 2e-4 * sceneRadius);
+  for (std::size_t i = 0; i + 2 < geometry.indices.size(); i += 3) {
+    const auto corner = [&](std::size_t k) { return dvec3(geometry.positions[geometry.indices[i + k]]); };
+    const dvec3 a = corner(0), b = corner(1), c = corner(2), centre = (a + b + c) / 3.0;
+    const double reach =
+        std::sqrt(std::max({glm::dot(a - centre, a - centre), glm::dot(b - centre, b - centre),
+                            glm::dot(c - centre, c - centre)}));
+    if (glm::length(camera.eye - centre) - reach >= nearest) continue;  // its bounding sphere is too far away
+    nearest = std::min(nearest, geometry::computeDistanceToTriangle(camera.eye, a, b, c));
+  }
+  // The corner of the picture is the farthest off axis: a point at distance d lies at least d cos beyond the
+  // eye.
+  const double aspect = double(camera.widthPx) / camera.heightPx;
+  const double cosine =
+      1.0 / std::sqrt(1.0 + camera.tanHalfFovY * camera.tanHalfFovY * (1.0 + aspect * aspect));
+  return std::max(0.9 * cosine * nearest, 2e-4 * sceneRadius);
 }
 
 RasterFrame::RasterFrame(gl::Context& context, const scene::Scene& scene,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scenes the project ships (methods.md, section 7), made by our own code as ordinary .glb files, which are then
-// read through the ordinary importer.
+// The scenes the project ships (methods.md, section 7), made by our own code as ordinary .glb files, which
+// are then read through the ordinary importer.
 #pragma once
 
 #include <cstddef>

@@ -13,8 +13,8 @@ struct CameraFrame {
   double tanHalfFovY = 0.5;
   int widthPx = 0, heightPx = 0;
 
-  /// Unnormalised direction of the ray through image position (x, y) in pixels; (0, 0) is the top left corner of
-  /// the picture and (0.5, 0.5) the centre of its first pixel. Its component along `forward` is 1.
+  /// Unnormalised direction of the ray through image position (x, y) in pixels; (0, 0) is the top left corner
+  /// of the picture and (0.5, 0.5) the centre of its first pixel. Its component along `forward` is 1.
   [[nodiscard]] dvec3 rayDirection(double xPx, double yPx) const {
     const double aspect = double(widthPx) / heightPx;
     const double sx = (2.0 * xPx / widthPx - 1.0) * aspect * tanHalfFovY;

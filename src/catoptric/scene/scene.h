@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene as imported: textures, materials, meshes shared by instances, lights, cameras. Units are metres, y is up,
-// frames are right-handed, as in glTF 2.0. What renderers draw is made from it by makeWorldGeometry().
+// A scene as imported: textures, materials, meshes shared by instances, lights, cameras. Units are metres, y
+// is up, frames are right-handed, as in glTF 2.0. What renderers draw is made from it by makeWorldGeometry().
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@
 
 namespace catoptric::scene {
 
-/// Triangles with one material. Attribute arrays are as long as `positions` or empty; `normals` are never empty
-/// after import. uv sets and colours are optional. Validated: indices in range, every number finite.
+/// Triangles with one material. Attribute arrays are as long as `positions` or empty; `normals` are never
+/// empty after import. uv sets and colours are optional. Validated: indices in range, every number finite.
 struct MeshPrimitive {
   std::vector<vec3> positions;
-  std::vector<vec3> normals;           ///< unit
-  std::vector<vec4> tangents;          ///< unit xyz, w = handedness; empty if absent
+  std::vector<vec3> normals;   ///< unit
+  std::vector<vec4> tangents;  ///< unit xyz, w = handedness; empty if absent
   std::vector<vec2> uv[2];
   std::vector<vec4> colors;            ///< linear RGBA, multiplies the base colour
   std::vector<std::uint32_t> indices;  ///< three per triangle, counter-clockwise seen from the front
@@ -42,10 +42,10 @@ enum class LightType : std::uint8_t { Directional, Point, Spot };
 /// KHR_lights_punctual; lights cast no shadows.
 struct Light {
   LightType type = LightType::Point;
-  vec3 color{1.0f};            ///< linear colour times intensity (candela; lux for a directional light)
+  vec3 color{1.0f};  ///< linear colour times intensity (candela; lux for a directional light)
   vec3 position{0.0f};
-  vec3 direction{0, 0, -1};    ///< unit, the way the light travels
-  float range = 0.0f;          ///< 0 = unlimited
+  vec3 direction{0, 0, -1};  ///< unit, the way the light travels
+  float range = 0.0f;        ///< 0 = unlimited
   float innerConeRadians = 0.0f, outerConeRadians = 0.7853982f;
 };
 
@@ -61,7 +61,7 @@ struct Camera {
 struct Scene {
   std::string name;
   std::vector<Texture> textures;
-  std::vector<Material> materials;   ///< never empty: the last one is glTF's default material
+  std::vector<Material> materials;  ///< never empty: the last one is glTF's default material
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
   std::vector<Light> lights;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pure functions of shaders/lib/, compiled as C++ so that the ray tracer shades with the rasterizer's formulas.
+// The pure functions of shaders/lib/, compiled as C++ so that the ray tracer shades with the rasterizer's
+// formulas.
 #pragma once
 
 #include <cmath>
