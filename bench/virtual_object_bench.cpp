@@ -7,13 +7,14 @@
 #include <memory>
 
 #include "catoptric/geometry/shapes.h"
-#include "catoptric/virtual_object/tessellation.h"
+#include "catoptric/raster/tessellation.h"
+#include "catoptric/raster/virtual_triangles.h"
 #include "catoptric/virtual_object/virtual_object_solver.h"
-#include "catoptric/virtual_object/virtual_triangles.h"
 
 namespace {
 
 using namespace catoptric;
+using namespace catoptric::raster;
 using namespace catoptric::virtual_object;
 
 void appendPart(scene::WorldGeometry& g, const geometry::Mesh& mesh, std::uint32_t reflector) {

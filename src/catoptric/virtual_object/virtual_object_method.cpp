@@ -11,7 +11,8 @@ VirtualObjectMethod::Prepared::Prepared(const scene::WorldGeometry& world, std::
                                         bool flipped, double maxError)
     : maxErrorPx(maxError),
       mesh(world, reflector, ReflectorMeshOptions{.flipped = flipped}),
-      objects(tessellateForReflector(world, reflector, TessellationOptions{.maxErrorPx = maxError})),
+      objects(raster::tessellateForReflector(world, reflector,
+                                             raster::TessellationOptions{.maxErrorPx = maxError})),
       streams(objects),
       blendedStreams(objects),
       virtualPositions(objects.positions.size()),
@@ -75,7 +76,8 @@ void VirtualObjectMethod::render(raster::FrameContext& frame, const raster::Chai
   if (p.objects.indices.empty()) return;
   computeVirtualVertices(frame, chain, drawEye, p);
   if (!p.solver->canReflect()) return;
-  selectVirtualTriangles(p.objects, drawEye, p.virtualPositions, p.kinds, p.reflectionPoints, p.triangles);
+  raster::selectVirtualTriangles(p.objects, drawEye, p.virtualPositions, p.kinds, p.reflectionPoints,
+                                 p.triangles);
   frame.counters.virtualTriangles += p.triangles.indices.size() / 3;
 
   // 3
@@ -83,7 +85,7 @@ void VirtualObjectMethod::render(raster::FrameContext& frame, const raster::Chai
   p.streams.setIndices(p.triangles.indices, true);
   p.opaque.clear();
   p.blended.clear();
-  for (const TessellatedPart& part : p.triangles.parts)
+  for (const raster::TessellatedPart& part : p.triangles.parts)
     (frame.scene.isBlended(part.part) ? p.blended : p.opaque)
         .push_back({part.part, part.firstIndex, part.indexCount});
   raster::SurfaceView view;

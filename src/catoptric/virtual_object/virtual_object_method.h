@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "catoptric/raster/reflection_method.h"
+#include "catoptric/raster/tessellation.h"
+#include "catoptric/raster/virtual_triangles.h"
 #include "catoptric/virtual_object/reflector_mesh.h"
-#include "catoptric/virtual_object/tessellation.h"
 #include "catoptric/virtual_object/virtual_object_solver.h"
-#include "catoptric/virtual_object/virtual_triangles.h"
 
 namespace catoptric::virtual_object {
 
@@ -34,13 +34,13 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     Prepared(const scene::WorldGeometry& world, std::uint32_t reflector, bool flipped, double maxErrorPx);
     double maxErrorPx;
     ReflectorMesh mesh;
-    TessellatedObjects objects;
+    raster::TessellatedObjects objects;
     raster::VertexStreams streams, blendedStreams;
     std::unique_ptr<VirtualObjectSolver> solver;
     std::vector<vec3> scenePoints;  ///< vertices mirrored by the planar links behind the curved one
     std::vector<vec3> virtualPositions, reflectionPoints;
     std::vector<VertexKind> kinds;
-    VirtualTriangles triangles;
+    raster::VirtualTriangles triangles;
     std::vector<raster::DrawRange> opaque, blended, sorted;
     std::vector<std::uint32_t> sortedIndices;
   };

@@ -19,6 +19,7 @@
 
 #include "catoptric/core/image.h"
 #include "catoptric/core/math.h"
+#include "catoptric/raster/virtual_triangles.h"
 #include "catoptric/virtual_object/explosion_map.h"
 #include "catoptric/virtual_object/reflection_point.h"
 #include "catoptric/virtual_object/reflector_mesh.h"
@@ -27,10 +28,7 @@ namespace catoptric::virtual_object {
 
 enum class Solver : std::uint8_t { Explosion, Refined };
 
-/// None: nothing sensible exists, drop the vertex's triangles. DoublyVirtual: not reflected, but placed
-/// outside the mirror's image (or in front of the mirror's surface, where the depth test against the mirror
-/// removes it), so that it closes triangles that are partly reflected.
-enum class VertexKind : std::uint8_t { None, Reflected, DoublyVirtual };
+using raster::VertexKind;
 
 struct SolverOptions {
   int mapResolution = 256;        ///< pixels across the near and far map

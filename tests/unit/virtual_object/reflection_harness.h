@@ -9,13 +9,15 @@
 
 #include "catoptric/core/seen.h"
 #include "catoptric/geometry/mesh.h"
+#include "catoptric/raster/tessellation.h"
+#include "catoptric/raster/virtual_triangles.h"
 #include "catoptric/scene/camera_frame.h"
 #include "catoptric/scene/world_geometry.h"
-#include "catoptric/virtual_object/tessellation.h"
 #include "catoptric/virtual_object/virtual_object_solver.h"
-#include "catoptric/virtual_object/virtual_triangles.h"
 
 namespace catoptric::virtual_object::test {
+
+using namespace raster;
 
 /// A hand-made world: one mirror (reflector 0, part 0) and things to be reflected.
 class TestWorld {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "catoptric/virtual_object/tessellation.h"
+#include "catoptric/raster/tessellation.h"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,13 @@
 
 #include "catoptric/core/log.h"
 #include "catoptric/geometry/shapes.h"
-#include "catoptric/virtual_object/virtual_triangles.h"
+#include "catoptric/raster/virtual_triangles.h"
 #include "reflection_harness.h"
 
 namespace catoptric::virtual_object {
+
+using namespace raster;
+
 namespace {
 
 using test::TestWorld;

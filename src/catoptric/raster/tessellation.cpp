@@ -22,7 +22,7 @@
 //
 // Departures: the papers tessellate uniformly and by hand. Failures: a triangle that crosses the mirror is
 // cut to the floor k c only. Cost: about 0.25 us per triangle made, parts in parallel.
-#include "catoptric/virtual_object/tessellation.h"
+#include "catoptric/raster/tessellation.h"
 
 #include <fmt/format.h>
 
@@ -33,9 +33,9 @@
 
 #include "catoptric/core/log.h"
 #include "catoptric/core/parallel.h"
-#include "catoptric/virtual_object/reflector_distance.h"
+#include "catoptric/raster/reflector_distance.h"
 
-namespace catoptric::virtual_object {
+namespace catoptric::raster {
 namespace {
 
 constexpr double kSagFactor = 0.06;
@@ -283,4 +283,4 @@ TessellatedObjects tessellateForReflector(const scene::WorldGeometry& geometry, 
   return objects;
 }
 
-}  // namespace catoptric::virtual_object
+}  // namespace catoptric::raster

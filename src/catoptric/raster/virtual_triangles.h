@@ -6,10 +6,14 @@
 #include <span>
 #include <vector>
 
-#include "catoptric/virtual_object/tessellation.h"
-#include "catoptric/virtual_object/virtual_object_solver.h"
+#include "catoptric/raster/tessellation.h"
 
-namespace catoptric::virtual_object {
+namespace catoptric::raster {
+
+/// None: nothing sensible exists, drop the vertex's triangles. DoublyVirtual: not reflected, but placed
+/// outside the mirror's image (or in front of the mirror's surface, where the depth test against the mirror
+/// removes it), so that it closes triangles that are partly reflected.
+enum class VertexKind : std::uint8_t { None, Reflected, DoublyVirtual };
 
 /// Indices into the TessellatedObjects' vertices; `parts` runs parallel to TessellatedObjects::parts
 /// (firstVertex and vertexCount copied). Reused from frame to frame: nothing is allocated once the capacity
@@ -22,10 +26,9 @@ struct VirtualTriangles {
 /// Drops triangles with a None vertex, those without any Reflected vertex, and those that are turned inside
 /// out (their real face and their image do not have the mirrored orientation, which happens to triangles that
 /// reach around the reflector's shadow; drawn, they would sweep across the mirror's image). The winding is
-/// that of the real triangle, so seen from the eye it is reversed. `reflectionPoints` as written by
-/// VirtualObjectSolver::compute().
+/// that of the real triangle, so seen from the eye it is reversed. `reflectionPoints`: J of every vertex.
 void selectVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
                             std::span<const vec3> virtualPositions, std::span<const VertexKind> kinds,
                             std::span<const vec3> reflectionPoints, VirtualTriangles& out);
 
-}  // namespace catoptric::virtual_object
+}  // namespace catoptric::raster

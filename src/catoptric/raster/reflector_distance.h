@@ -11,7 +11,7 @@
 #include "catoptric/core/math.h"
 #include "catoptric/scene/world_geometry.h"
 
-namespace catoptric::virtual_object {
+namespace catoptric::raster {
 
 class ReflectorDistance {
  public:
@@ -112,4 +112,4 @@ class ReflectorDistance {
   bool hasBack_ = false;
 };
 
-}  // namespace catoptric::virtual_object
+}  // namespace catoptric::raster

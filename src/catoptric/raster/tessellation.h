@@ -15,7 +15,7 @@
 #include "catoptric/core/math.h"
 #include "catoptric/scene/world_geometry.h"
 
-namespace catoptric::virtual_object {
+namespace catoptric::raster {
 
 /// Pieces of one part of the world geometry, in the order of the world's parts (so blending keeps its order).
 struct TessellatedPart {
@@ -48,4 +48,4 @@ struct TessellationOptions {
                                                         std::uint32_t reflector,
                                                         const TessellationOptions& options = {});
 
-}  // namespace catoptric::virtual_object
+}  // namespace catoptric::raster

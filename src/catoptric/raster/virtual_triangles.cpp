@@ -3,12 +3,12 @@
 // triangle that reaches around the reflector's shadow does not: its corners come to lie all around the rim,
 // and drawn it would cover the mirror from rim to rim with what belongs into a ring thinner than a pixel.
 // Orientation finds it.
-#include "catoptric/virtual_object/virtual_triangles.h"
+#include "catoptric/raster/virtual_triangles.h"
 
 #include <cassert>
 #include <cmath>
 
-namespace catoptric::virtual_object {
+namespace catoptric::raster {
 namespace {
 
 constexpr float kEdgeOn = 0.02f;  // sine below which a face says nothing about its orientation
@@ -67,4 +67,4 @@ void selectVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
   }
 }
 
-}  // namespace catoptric::virtual_object
+}  // namespace catoptric::raster
