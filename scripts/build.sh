@@ -7,6 +7,8 @@ cd "$(dirname "$0")/.."
 preset=${1:?usage: build.sh PRESET [TARGET...]}
 shift
 build=build/$preset
+# Objects do not depend on where the tree lies, so that a second clone (CI makes one) finds what the first one compiled.
+export CCACHE_BASEDIR=${CCACHE_BASEDIR:-$PWD} CCACHE_NOHASHDIR=1
 if [ ! -f "$build/build.ninja" ]; then
   mkdir -p "$build"
   cmake --preset "$preset" >"$build/configure.log" 2>&1 || {
