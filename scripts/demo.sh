@@ -4,6 +4,7 @@
 # What is left in out/demo:
 #   index.html, report.json   every scene and method, one bounce: pictures, error maps, figures
 #   hall-of-mirrors-4-bounces mirrors in mirrors, four levels deep
+#   shapes                    mirrors of other shapes, concave and mixed ones among them, fewer methods and repetitions
 #   no-mirrors                the drivers-view with every mirror switched off: raster against ray-traced
 #   scenes/*.glb              the scenes themselves
 # A comparison is run again only when the command or the scenes have changed (.made_by remembers by which); FORCE=1
@@ -27,7 +28,12 @@ else
   read -ra arguments <<<"${DEMO_ARGS:-}"
   compare() { "$catoptric" compare "$@" "${arguments[@]}" --json - >/dev/null; }
   start=$(date +%s)
-  compare "$out"/scenes/*.glb -o "$out"
+  shapes=()
+  for name in concave-bowl mask mixed tv cone vase wavy-wall; do shapes+=("$out/scenes/$name.glb"); done
+  others=()
+  for file in "$out"/scenes/*.glb; do [[ " ${shapes[*]} " == *" $file "* ]] || others+=("$file"); done
+  compare "${others[@]}" -o "$out"
+  compare "${shapes[@]}" -o "$out/shapes" --repeat 1 --methods environment,virtual-explosion,virtual-refined
   compare "$out/scenes/hall-of-mirrors.glb" -o "$out/hall-of-mirrors-4-bounces" --bounces 4 \
     --methods none,environment,virtual-refined
   compare "$out/scenes/drivers-view.glb" -o "$out/no-mirrors" --no-reflectors --methods none

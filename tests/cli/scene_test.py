@@ -8,7 +8,7 @@ import unittest
 import support
 
 BUILT_IN = {"four-spheres", "cylinder", "fender", "polyhedra-and-sphere", "checker-box", "hall-of-mirrors",
-            "drivers-view"}
+            "drivers-view", "concave-bowl", "mask", "mixed", "tv", "cone", "vase", "wavy-wall"}
 
 
 class Info(support.CommandTest):
@@ -76,6 +76,8 @@ class Scenes(support.CommandTest):
         self.assertEqual(shapes["checker-box"], {"plane"})
         self.assertEqual(shapes["hall-of-mirrors"], {"plane"})
         self.assertEqual(shapes["fender"], {"mesh"})
+        self.assertEqual(shapes["concave-bowl"], {"sphere"})
+        self.assertEqual(shapes["cone"], {"cone"})
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ struct Row {
 };
 
 /// Adding a scene = one file in built_in/ and one row here.
-constexpr std::array<Row, 7> kRows = {{
+constexpr std::array<Row, 14> kRows = {{
     {{"four-spheres", "four chrome spheres on a table in a furnished room (1998, figures 15 and 16)"},
      built_in::makeFourSpheres},
     {{"cylinder", "an upright chrome cylinder on a patterned floor (1998, figure 12)"},
@@ -36,6 +36,15 @@ constexpr std::array<Row, 7> kRows = {{
       "a car's flat inner mirror and two convex wing mirrors in traffic; also cameras left-mirror, "
       "right-mirror and inner-mirror"},
      built_in::makeDriversView},
+    {{"concave-bowl",
+      "a concave bowl, things near it enlarged, the room upside down (1998, figures 8 and 11)"},
+     built_in::makeConcaveBowl},
+    {{"mask", "a face of convex and concave pieces between two balls (1998, figure 19)"}, built_in::makeMask},
+    {{"mixed", "a convex half and a concave half that join smoothly (1998, figure 9)"}, built_in::makeMixed},
+    {{"tv", "a television screen, the extrusion of a convex curve (1998, figure 17)"}, built_in::makeTv},
+    {{"cone", "a chrome cone on a table of rings and rays"}, built_in::makeCone},
+    {{"vase", "a surface of revolution with a waist, where it is a saddle"}, built_in::makeVase},
+    {{"wavy-wall", "a wall of wavy chrome as at a fair, crests and troughs"}, built_in::makeWavyWall},
 }};
 
 /// Levenshtein distance.

@@ -13,5 +13,12 @@ namespace catoptric::scene::built_in {
 [[nodiscard]] Scene makeCheckerBox();
 [[nodiscard]] Scene makeHallOfMirrors();
 [[nodiscard]] Scene makeDriversView();
+[[nodiscard]] Scene makeConcaveBowl();
+[[nodiscard]] Scene makeMask();
+[[nodiscard]] Scene makeMixed();
+[[nodiscard]] Scene makeTv();
+[[nodiscard]] Scene makeCone();
+[[nodiscard]] Scene makeVase();
+[[nodiscard]] Scene makeWavyWall();
 
 }  // namespace catoptric::scene::built_in
