@@ -42,7 +42,10 @@ bool isInsideOut(const vec3 q[3], const vec3 w[3], const vec3 j[3], const vec3& 
 
 void selectVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
                             std::span<const vec3> virtualPositions, std::span<const VertexKind> kinds,
-                            std::span<const vec3> reflectionPoints, VirtualTriangles& out) {
+                            std::span<const vec3> reflectionPoints, VirtualTriangles& out,
+                            std::span<const vec3> scenePoints) {
+  if (scenePoints.empty()) scenePoints = objects.positions;
+  assert(scenePoints.size() == objects.positions.size());
   assert(virtualPositions.size() == objects.positions.size() && kinds.size() == objects.positions.size());
   assert(reflectionPoints.size() == objects.positions.size());
   out.indices.clear();
@@ -56,7 +59,7 @@ void selectVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
       const VertexKind a = kinds[v[0]], b = kinds[v[1]], c = kinds[v[2]];
       if (a == VertexKind::None || b == VertexKind::None || c == VertexKind::None) continue;
       if (a != VertexKind::Reflected && b != VertexKind::Reflected && c != VertexKind::Reflected) continue;
-      const vec3 q[3] = {objects.positions[v[0]], objects.positions[v[1]], objects.positions[v[2]]};
+      const vec3 q[3] = {scenePoints[v[0]], scenePoints[v[1]], scenePoints[v[2]]};
       const vec3 w[3] = {virtualPositions[v[0]], virtualPositions[v[1]], virtualPositions[v[2]]};
       const vec3 j[3] = {reflectionPoints[v[0]], reflectionPoints[v[1]], reflectionPoints[v[2]]};
       if (isInsideOut(q, w, j, eyeF)) continue;

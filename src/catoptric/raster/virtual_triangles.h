@@ -27,8 +27,11 @@ struct VirtualTriangles {
 /// out (their real face and their image do not have the mirrored orientation, which happens to triangles that
 /// reach around the reflector's shadow; drawn, they would sweep across the mirror's image). The winding is
 /// that of the real triangle, so seen from the eye it is reversed. `reflectionPoints`: J of every vertex.
+/// `scenePoints`: where the vertices stand as the mirror sees them, if flat mirrors behind it have moved
+/// them; empty for objects.positions.
 void selectVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
                             std::span<const vec3> virtualPositions, std::span<const VertexKind> kinds,
-                            std::span<const vec3> reflectionPoints, VirtualTriangles& out);
+                            std::span<const vec3> reflectionPoints, VirtualTriangles& out,
+                            std::span<const vec3> scenePoints = {});
 
 }  // namespace catoptric::raster

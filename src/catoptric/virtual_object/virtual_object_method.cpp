@@ -76,8 +76,10 @@ void VirtualObjectMethod::render(raster::FrameContext& frame, const raster::Chai
   if (p.objects.indices.empty()) return;
   computeVirtualVertices(frame, chain, drawEye, p);
   if (!p.solver->canReflect()) return;
+  const bool isMirrored = chain.drawFromWorld != dmat4(1.0);
   raster::selectVirtualTriangles(p.objects, drawEye, p.virtualPositions, p.kinds, p.reflectionPoints,
-                                 p.triangles);
+                                 p.triangles,
+                                 isMirrored ? std::span<const vec3>(p.scenePoints) : std::span<const vec3>());
   frame.counters.virtualTriangles += p.triangles.indices.size() / 3;
 
   // 3
