@@ -46,7 +46,8 @@ def check(path, text, errors, notes):
         if include:
             for pattern, owners in OWNERS.items():
                 inside = any(path.startswith(owner + "/") for owner in owners)
-                in_test = path.startswith("tests/unit/" + owners[0].split("/")[-1] + "/")
+                name = owners[0].split("/")[-1]
+                in_test = path.startswith((f"tests/unit/{name}/", f"tests/{name}/"))
                 if re.match(pattern, include.group(1)) and not inside and not in_test:
                     errors.append(f"{path}:{number}: {include.group(1)} may be included only in {owners[0]}")
             if ".." in include.group(1).split("/"):

@@ -74,6 +74,13 @@ class Failures(support.CommandTest):
         self.refuse(1, "nothing", *self.render("scene.gltf", "--scene", "nothing"))
         self.assertEqual(self.read("x.png"), b"old")
 
+    def test_no_opengl(self):
+        """One line with the remedy; ray tracing needs none of it."""
+        without = {"__EGL_VENDOR_LIBRARY_FILENAMES": self.path("nowhere.json")}
+        self.refuse(1, ("OpenGL 3.3", "libgl1-mesa-dri", "--method raytrace"), *self.render("scene.gltf"), env=without)
+        self.assert_nothing_left()
+        self.succeed("render", "scene.gltf", "-o", "a.png", "--method", "raytrace", *support.SMALL, env=without)
+
     def test_full_standard_output(self):
         with open("/dev/full", "wb") as full:
             for arguments in (("scenes",), ("info", "scene.gltf"), ("--help",), ("--version",),

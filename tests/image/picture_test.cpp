@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// Raster pictures against ray-traced ones, 256x256, through the library. Each test has its twin: the raster
+// method works on a normal or plane that is turned by a few tenths of a degree, the truth on the right one,
+// and the same limits must refuse it. Limits are about twice what was measured (printed by each test).
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+#include <memory>
+
+#include "catoptric/core/file.h"
+#include "catoptric/core/image_io.h"
+#include "catoptric/geometry/shapes.h"
+#include "catoptric/scene/built_in_scenes.h"
+#include "catoptric/scene/gltf_import.h"
+#include "image_test_support.h"
+#include "traced_scene.h"
+
+namespace catoptric::image_test {
+namespace {
+
+using reference::makeMirror;
+using reference::makeQuad;
+using reference::TracedTestScene;
+
+struct LoadedScene {
+  scene::Scene scene;
+  scene::WorldGeometry world;
+};
+
+const LoadedScene& builtIn(const std::string& name) {
+  static std::map<std::string, std::unique_ptr<LoadedScene>> cache;
+  std::unique_ptr<LoadedScene>& entry = cache[name];
+  if (!entry) {
+    entry = std::make_unique<LoadedScene>();
+    entry->scene = scene::importGltf(scene::makeBuiltInScene(name), {}, name);
+    entry->world = scene::makeWorldGeometry(entry->scene);
+  }
+  return *entry;
+}
+
+Subject subjectOf(const std::string& name, int bounces = 1) {
+  const LoadedScene& loaded = builtIn(name);
+  return {name, loaded.scene, loaded.world, loaded.scene.cameras.front(), bounces};
+}
+
+/// A ball and a flat mirror that show each other, with a lit board between them.
+struct BallAndMirror {
+  TracedTestScene t;
+  BallAndMirror() {
+    t.camera.eye = {1.2, 1.3, 3.4};
+    t.camera.target = {0, 0.6, 0};
+    t.camera.fovYRadians = 0.75;
+    scene::Material paint;
+    paint.metallic = 0;
+    paint.baseColor = {0.9f, 0.45f, 0.2f, 1};
+    scene::Material floor = paint;
+    floor.baseColor = {0.5f, 0.55f, 0.6f, 1};
+    t.add(reference::makeBall(96, 48), makeMirror(vec3(0.95f)), "ball",
+          geometry::moveBy({-0.5, 0.6, 0.4}) * geometry::scaleBy(dvec3(0.6)));
+    t.add(makeQuad({-1.6f, 0, -0.7f}, {3.2f, 0, 0}, {0, 1.9f, 0}), makeMirror(), "flat");
+    t.add(makeQuad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}), floor, "floor");
+    scene::MeshPrimitive box;
+    const geometry::Mesh mesh = geometry::makeBox({0.35, 0.5, 0.35});
+    box.positions = mesh.positions, box.normals = mesh.normals, box.indices = mesh.indices;
+    t.add(box, paint, "box", geometry::moveBy({0.6, 0.25, 0.3}) * geometry::turnAround({0, 1, 0}, 0.5));
+    t.finish();
+  }
+  [[nodiscard]] Subject subject(const char* name) const { return {name, t.scene, t.world, t.camera, 2}; }
+};
+
+TEST(Picture, sceneWithoutMirrors) {
+  const Subject subject = subjectOf("four-spheres");
+  scene::Scene plain = subject.scene;
+  for (scene::Material& material : plain.materials) material.hint.reflector = false;
+  const scene::WorldGeometry world = scene::makeWorldGeometry(plain);
+  ASSERT_TRUE(world.reflectors.empty());
+  scene::WorldGeometry twin = world;
+  const dmat3 turn(glm::rotate(dmat4(1.0), 0.01, dvec3(1, 0, 0)));
+  for (vec3& normal : twin.normals) normal = vec3(turn * dvec3(normal));
+  expectWithin(
+      {"no-mirrors", plain, world, subject.camera}, twin,
+      {2, 0.15, "the same formulas on the same floats; a GPU filters textures with weights of 8 bits"});
+}
+
+TEST(Picture, planarMirror) {
+  const Subject subject = subjectOf("checker-box");
+  expectWithin(
+      subject, withTurnedPlanes(subject.world, 0.005),
+      {8, 0.25, "flat mirrors are exact: rounding, and edges that fall to the other side of a pixel"});
+}
+
+TEST(Picture, mirrorsInMirrors) {
+  const Subject subject = subjectOf("hall-of-mirrors", 3);
+  expectWithin(
+      subject, withTurnedPlanes(subject.world, 0.005),
+      {8, 0.25, "flat mirrors are exact: rounding, and edges that fall to the other side of a pixel"});
+}
+
+TEST(Picture, curvedInFlat) {
+  const BallAndMirror scene;
+  const Subject subject = scene.subject("curved-in-flat");
+  expectWithin(subject, withTurnedPlanes(subject.world, 0.005),
+               {12, 0.1, "the ball's rim, where the whole sky is squeezed into one pixel"});
+}
+
+TEST(Picture, flatInCurved) {
+  const BallAndMirror scene;
+  Subject subject = scene.subject("flat-in-curved");
+  subject.camera.eye = {0.3, 0.9,
+                        3.0};  // near the ball, which shows the flat mirror's edge and the box twice
+  subject.camera.target = {-0.5, 0.6, 0.4};
+  subject.camera.fovYRadians = 0.5;
+  expectWithin(subject, withTurnedNormals(subject.world, 0.005),
+               {10, 0.12, "the ball's rim, where the whole sky is squeezed into one pixel"});
+}
+
+TEST(Picture, fourSpheres) {
+  const Subject subject = subjectOf("four-spheres");
+  expectWithin(subject, withTurnedNormals(subject.world, 0.005),
+               {22, 0.6, "rims, where the whole room is squeezed into one pixel"});
+}
+
+TEST(Picture, fender) {
+  const Subject subject = subjectOf("fender");
+  expectWithin(subject, withTurnedNormals(subject.world, 0.005),
+               {22, 0.4, "thin bright poles, up to a tenth of a pixel beside their place"});
+}
+
+TEST(Picture, cylinder) {
+  const Subject subject = subjectOf("cylinder");
+  expectWithin(subject, withTurnedNormals(subject.world, 0.005),
+               {10, 0.25, "reflection points are interpolated between vertices"});
+}
+
+// A baseline where the truth cannot judge: both renderers share their shading, sky and tone mapping, so a
+// change there changes both alike. CATOPTRIC_WRITE_BASELINES=1 writes it anew; look at it before it is kept.
+TEST(Picture, shadingIsAsItWas) {
+  TracedTestScene t;
+  t.camera.eye = {0, 0.4, 9};
+  t.camera.target = {0, 0, 0};
+  t.camera.fovYRadians = 0.6;
+  scene::Light lamp;
+  lamp.position = {-3, 4, 5};
+  lamp.color = vec3(60, 50, 40);
+  t.scene.lights.push_back(lamp);
+  const auto addBalls = [&](bool isTwin) {
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 3; ++column) {
+        scene::Material material;
+        material.metallic = 0.5f * float(row);
+        material.roughness = 0.15f + 0.4f * float(column) + (isTwin ? 0.03f : 0.0f);
+        material.baseColor = {0.9f, 0.5f, 0.2f, 1};
+        t.add(reference::makeBall(48, 24), material, "ball",
+              geometry::moveBy({1.7 * (column - 1), 1.7 * (row - 1), 0}) * geometry::scaleBy(dvec3(0.75)));
+      }
+    t.finish();
+    return draw({"shading", t.scene, t.world, t.camera}, t.world, renderer::Method::RayTrace, 128);
+  };
+  const Limits limits{2, 0.3, "compilers may round differently by one step of 8 bits"};
+  const core::ImageRgba8 actual = addBalls(false);
+  t.scene.meshes.clear(), t.scene.instances.clear(), t.scene.materials.clear();
+  const core::ImageRgba8 twin = addBalls(true);
+  const std::string file = CATOPTRIC_SOURCE_DIR "/tests/image/baselines/shading.png";
+  if (std::getenv("CATOPTRIC_WRITE_BASELINES") != nullptr)
+    core::writeFileAtomically(file, std::span<const std::byte>(core::encodePng(actual)));
+  const core::ImageRgba8 baseline = core::decodeImage(core::readFile(file), file);
+  EXPECT_TRUE(isWithin("shading", actual, baseline, limits));
+  EXPECT_FALSE(isWithin("shading, twin", twin, baseline, limits));
+  if (HasFailure()) writeFailure("shading", actual, baseline);
+}
+
+}  // namespace
+}  // namespace catoptric::image_test
