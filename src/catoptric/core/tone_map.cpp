@@ -2,6 +2,8 @@
 #include "catoptric/core/tone_map.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 #include "catoptric/core/parallel.h"
@@ -29,6 +31,42 @@ std::uint8_t toByte(float value) {
   return std::uint8_t(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
 }
 
+/// toByte(srgbFromLinear(x)) without its power, which is most of the time of a picture: for each byte the
+/// least float that gives it (the function is monotone), and for the upper 16 bits of a float the byte at the
+/// start of their interval.
+class SrgbBytes {
+ public:
+  SrgbBytes() {
+    for (int byte = 1; byte < 256; ++byte) {
+      std::uint32_t below = 0, at = kOne;  // bits of floats in [0, 1] are ordered as the floats are
+      while (at - below > 1) {
+        const std::uint32_t middle = below + (at - below) / 2;
+        (toByte(srgbFromLinear(std::bit_cast<float>(middle))) >= byte ? at : below) = middle;
+      }
+      least_[std::size_t(byte)] = std::bit_cast<float>(at);
+    }
+    for (std::uint32_t upper = 0; upper < first_.size(); ++upper)
+      first_[upper] = toByte(srgbFromLinear(std::bit_cast<float>(upper << 16)));
+  }
+  /// `linear` is not negative and not NaN.
+  [[nodiscard]] std::uint8_t operator()(float linear) const {
+    if (linear >= 1.0f) return 255;
+    std::size_t byte = first_[std::bit_cast<std::uint32_t>(linear) >> 16];
+    while (byte < 255 && linear >= least_[byte + 1]) ++byte;
+    return std::uint8_t(byte);
+  }
+
+ private:
+  static constexpr std::uint32_t kOne = 0x3f800000u;  // bits of 1.0f
+  std::array<float, 256> least_{};
+  std::array<std::uint8_t, (kOne >> 16) + 1> first_{};
+};
+
+std::uint8_t toSrgbByte(float linear) {
+  static const SrgbBytes bytes;
+  return bytes(std::max(linear, 0.0f));
+}
+
 }  // namespace
 
 float srgbFromLinear(float linear) {
@@ -45,8 +83,7 @@ glm::u8vec4 toneMap(const vec4& linear, float exposure) {
     if (!(colour[i] > 0.0f)) colour[i] = 0.0f;  // catches NaN too
   colour = glm::min(colour, vec3(1e6f));
   colour = compressHighlights(colour);
-  return {toByte(srgbFromLinear(colour.r)), toByte(srgbFromLinear(colour.g)),
-          toByte(srgbFromLinear(colour.b)), toByte(linear.a)};
+  return {toSrgbByte(colour.r), toSrgbByte(colour.g), toSrgbByte(colour.b), toByte(linear.a)};
 }
 
 ImageRgba8 toneMap(const ImageRgbaF& linear, float exposure) {

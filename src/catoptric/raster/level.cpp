@@ -32,10 +32,12 @@ Level::Level(int width, int height)
       overlays(makeFramebuffer({&overlay}, &depth)),
       composed(makeFramebuffer({&color, &seenPosition, &seenIds}, nullptr)) {}
 
-void Level::clear() const {
+void Level::clear(const gl::Scissor& drawn) {
+  drawnBounds = drawn;
+  hasOverlay = false;
   surfaces.bind();
-  for (int attachment = 0; attachment < 3; ++attachment) surfaces.clearColor(attachment, vec4(0.0f));
-  surfaces.clearColor(3, uvec4(0u));
+  surfaces.clearColor(3,
+                      uvec4(0u));  // where ids say that there is nothing, the other three are never looked at
   surfaces.clearDepth();
 }
 
@@ -55,6 +57,7 @@ ComposePass::ComposePass() : program_("raster/screen.vert", "raster/compose.frag
 
 void ComposePass::draw(const SceneBuffers& scene, const Level& level, const Level* next) {
   level.composed.bind();
+  gl::setScissor(level.drawnBounds);
   gl::setDrawState({.depthTest = false, .depthWrite = false});
   program_.use();
   scene.bindEnvironment(program_);

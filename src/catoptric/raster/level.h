@@ -16,7 +16,9 @@ namespace catoptric::raster {
 struct Level {
   Level(int widthPx, int heightPx);
 
-  void clear() const;
+  /// Nothing is stored, and nothing will be outside of `drawn`.
+  void clear(const gl::Scissor& drawn);
+  void clear() { clear({0, 0, widthPx, heightPx}); }
   /// Binds the stored pictures as the "parent" that the next level reads.
   void bindAsParent(gl::Program& program) const;
 
@@ -25,6 +27,7 @@ struct Level {
   gl::Texture overlay;                       ///< blended surfaces, premultiplied
   gl::Texture color, seenPosition, seenIds;  ///< composed
   gl::Framebuffer surfaces, overlays, composed;
+  gl::Scissor drawnBounds;  ///< pixels that may show something
   bool hasOverlay = false;
 };
 

@@ -108,7 +108,6 @@ PrimaryPass::PrimaryPass(SurfacePass& surfaces)
 
 void PrimaryPass::draw(const SceneBuffers& scene, const scene::CameraFrame& camera, double nearPlane,
                        const dvec2& jitterPx, Level& target, std::uint32_t excludedReflector) {
-  target.hasOverlay = false;
   target.clear();
   gl::setDrawState({.depthTest = false, .depthWrite = false});
   background_.use();

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "catoptric/core/error.h"
+#include "catoptric/core/parallel.h"
 #include "catoptric/core/sample_pattern.h"
 #include "catoptric/geometry/mesh_measures.h"
 
@@ -28,6 +29,28 @@ void forFlippedRows(const std::vector<Pixel>& pixels, int width, int height, con
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       write(x, y, pixels[std::size_t(height - 1 - y) * std::size_t(width) + std::size_t(x)]);
+}
+
+/// The rectangle around all that the chains' mirrors show.
+gl::Scissor findUnion(const std::vector<raster::Chain>& chains) {
+  ivec2 lower(std::numeric_limits<int>::max()), upper(0);
+  for (const raster::Chain& chain : chains) {
+    const ivec2 corner(chain.bounds.x, chain.bounds.y);
+    lower = glm::min(lower, corner);
+    upper = glm::max(upper, corner + ivec2(chain.bounds.width, chain.bounds.height));
+  }
+  return {lower.x, lower.y, upper.x - lower.x, upper.y - lower.y};
+}
+
+/// The picture of one sample, without a second array to flip it in.
+void readFlipped(const gl::Framebuffer& framebuffer, int attachment, core::ImageRgbaF& image) {
+  framebuffer.readPixels(attachment, std::span<vec4>(image.pixels()));
+  const std::size_t width = std::size_t(image.width()), height = std::size_t(image.height());
+  core::parallelFor(height / 2, 32, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t y = begin; y < end; ++y)
+      std::swap_ranges(image.data() + y * width, image.data() + (y + 1) * width,
+                       image.data() + (height - 1 - y) * width);
+  });
 }
 
 }  // namespace
@@ -150,8 +173,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
     prepareLevels(level + 2, options.widthPx, options.heightPx);
     // 3, 4
     raster::Level& target = *levels_[std::size_t(level) + 1];
-    target.hasOverlay = false;
-    target.clear();
+    target.clear(findUnion(chains));
     for (const raster::Chain& chain : chains)
       if (raster::ReflectionMethod* method = pickMethod(chain, options.method))
         method->render(context, chain, *levels_[std::size_t(level)], target);
@@ -205,10 +227,14 @@ Frame RasterFrame::render(const scene::CameraFrame& camera, const FrameOptions& 
                                                          : virtual_object::Solver::Refined);
   environment_.setOptions(options.environmentMapSize, options.boxCorrected);
   frame.radiance = core::ImageRgbaF(options.widthPx, options.heightPx, vec4(0, 0, 0, 1));
-  std::vector<vec4> pixels(frame.radiance.size());
   const raster::Level& level = *levels_[0];
+  std::vector<vec4> pixels(samples == 1 ? 0 : frame.radiance.size());
   for (int i = 0; i < samples; ++i) {
     renderSample(camera, options, core::samplePosition(i, samples), frame);
+    if (samples == 1) {
+      readFlipped(level.composed, 0, frame.radiance);
+      break;
+    }
     level.composed.readPixels(0, std::span<vec4>(pixels));
     forFlippedRows(pixels, options.widthPx, options.heightPx, [&](int x, int y, const vec4& p) {
       frame.radiance.at(x, y) += vec4(vec3(p) / float(samples), 0.0f);

@@ -78,5 +78,15 @@ TEST(ToneMap, ImageIsThePixelsInOrder) {
     EXPECT_EQ(mapped.data()[i], toneMap(linear.data()[i], 0.7f));
 }
 
+TEST(ToneMap, BytesAreThoseOfTheFormula) {
+  // Greys below the compression: the curve takes off c - 6.25 c^2, from 0.08 on 0.04.
+  for (int i = 0; i <= 400000; ++i) {
+    const float grey = 0.75f * float(i) / 400000.0f;
+    const float taken = grey < 0.08f ? grey - 6.25f * grey * grey : 0.04f;
+    const long expected = std::lround(srgbFromLinear(grey - taken) * 255.0f);
+    ASSERT_EQ(long(toneMap(vec4(vec3(grey), 1.0f)).g), expected) << grey;
+  }
+}
+
 }  // namespace
 }  // namespace catoptric::core
