@@ -35,7 +35,8 @@ struct ExrChannel {
 };
 
 /// Encoders to memory. Bytes depend on the pixels only (no time stamps), so two runs give identical files.
-[[nodiscard]] std::vector<std::byte> encodePng(const ImageRgba8& image);
+/// `description` goes into a PNG's text chunk of that name, unless it is empty.
+[[nodiscard]] std::vector<std::byte> encodePng(const ImageRgba8& image, const std::string& description = {});
 [[nodiscard]] std::vector<std::byte> encodeJpeg(const ImageRgba8& image, int quality = 92);
 [[nodiscard]] std::vector<std::byte> encodeExr(int widthPx, int heightPx,
                                                std::span<const ExrChannel> channels);

@@ -116,7 +116,7 @@ void onWrite(png_structp png, png_bytep data, std::size_t count) {
 
 void onFlush(png_structp) {}
 
-bool writeRows(Writer& writer, const ImageRgba8& image, bool isOpaque, png_bytep row) {
+bool writeRows(Writer& writer, const ImageRgba8& image, bool isOpaque, png_bytep row, png_textp text) {
   if (setjmp(png_jmpbuf(writer.png))) return false;
   png_set_write_fn(writer.png, &writer, onWrite, onFlush);
   png_set_user_limits(writer.png, 0x7fffffff, 0x7fffffff);
@@ -125,6 +125,7 @@ bool writeRows(Writer& writer, const ImageRgba8& image, bool isOpaque, png_bytep
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB(writer.png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_set_compression_level(writer.png, 6);
+  if (text != nullptr) png_set_text(writer.png, writer.info, text, 1);
   png_write_info(writer.png, writer.info);
   for (int y = 0; y < image.height(); ++y) {
     const glm::u8vec4* pixels = image.data() + std::size_t(y) * std::size_t(image.width());
@@ -162,14 +163,21 @@ ImageRgba8 codec::decodePng(Bytes bytes, const std::string& name, std::size_t ma
   return image;
 }
 
-std::vector<std::byte> encodePng(const ImageRgba8& image) {
+std::vector<std::byte> encodePng(const ImageRgba8& image, const std::string& description) {
   if (image.isEmpty()) throw Error("image.encode", "cannot encode a PNG without pixels");
   bool isOpaque = true;
   for (const glm::u8vec4& pixel : image.pixels()) isOpaque = isOpaque && pixel.a == 255;
   Writer writer;
   if (!writer.png || !writer.info) throw Error("image.encode", "cannot encode PNG: libpng cannot start");
   std::vector<png_byte> row(std::size_t(image.width()) * 4);
-  if (!writeRows(writer, image, isOpaque, row.data()))
+  char key[] = "Description";
+  std::string value = description;
+  png_text text{};
+  text.compression = PNG_TEXT_COMPRESSION_NONE;
+  text.key = key;
+  text.text = value.data();
+  text.text_length = value.size();
+  if (!writeRows(writer, image, isOpaque, row.data(), value.empty() ? nullptr : &text))
     throw Error("image.encode", std::string("cannot encode PNG: ") + writer.failure.message);
   return std::move(writer.bytes);
 }

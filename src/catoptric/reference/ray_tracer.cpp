@@ -83,6 +83,7 @@ void RayTracer::trace(const scene::CameraFrame& camera, const TraceOptions& opti
   const int rows = (camera.heightPx + kTileEdgePx - 1) / kTileEdgePx;
   std::atomic<std::uint64_t> rays{0};
   core::parallelFor(std::size_t(columns) * std::size_t(rows), 4, [&](std::size_t begin, std::size_t end) {
+    if (options.cancel && *options.cancel) return;
     const FlushDenormals flush;
     TileTracer tracer(scene, camera, options, result);
     for (std::size_t tile = begin; tile < end; ++tile)

@@ -10,6 +10,7 @@
 // allowed bounce shows the environment in its mirror direction; lights cast no shadows.
 #pragma once
 
+#include <atomic>
 #include <memory>
 
 #include "catoptric/core/image.h"
@@ -26,6 +27,8 @@ struct TraceOptions {
   int samples = 1;  ///< rays per pixel, on the same sub-pixel pattern as the rasterizer (samplePattern())
   bool withSeen = true;        ///< fill `seen` (always from the pixel centre)
   bool withFootprints = true;  ///< fill `footprints`
+  /// Once it is true, which any thread may make it, no new tile is begun and the result is of no use.
+  const std::atomic<bool>* cancel = nullptr;
 };
 
 struct TraceResult {

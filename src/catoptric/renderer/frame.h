@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <map>
 #include <memory>
 #include <optional>
@@ -40,6 +41,8 @@ struct FrameOptions {
   bool boxCorrected = true;  ///< Environment: parallax-corrected by the box of the room; false: plain
   int environmentMapSize = 512;  ///< Environment: edge of a cube face, texels
   bool withSeen = true;          ///< read back what is seen at each pixel
+  /// RayTrace: once it is true, which any thread may make it, the frame ends early and is of no use.
+  const std::atomic<bool>* cancel = nullptr;
 };
 
 struct FrameTimings {

@@ -32,7 +32,8 @@ struct Renderer::Impl {
                       {.bounces = options.bounces,
                        .samples = options.samples,
                        .withSeen = options.withSeen,
-                       .withFootprints = options.withSeen},
+                       .withFootprints = options.withSeen,
+                       .cancel = options.cancel},
                       traced);
     Frame frame;
     frame.radiance = traced.radiance;

@@ -323,5 +323,13 @@ TEST(DecodeImage, DamagedFilesNeverCrash) {
   EXPECT_GT(read, 50);      // ... and some of it harmless
 }
 
+TEST(Png, DescriptionIsCarriedAndChangesNoPixel) {
+  ImageRgba8 image(3, 2, glm::u8vec4(1, 2, 3, 255));
+  const auto plain = encodePng(image), described = encodePng(image, "catoptric render x");
+  const std::string text(reinterpret_cast<const char*>(described.data()), described.size());
+  EXPECT_NE(text.find(std::string("Description\0catoptric render x", 30)), std::string::npos);
+  EXPECT_EQ(decodeImage(plain, "plain").pixels(), decodeImage(described, "described").pixels());
+}
+
 }  // namespace
 }  // namespace catoptric::core
