@@ -131,10 +131,6 @@ class Cli11Arguments final : public Arguments {
   Strings names;
   for (const Command& command : commands) names.push_back(command.name);
   if (word.starts_with("-")) throw UsageError("unknown option '" + word + "'", "see 'catoptric --help'");
-  const bool isPath = word.find('.') != std::string::npos || word.find('/') != std::string::npos;
-  if (isPath)
-    throw UsageError("'" + word + "' is no command, and the interactive viewer is not in this version",
-                     "try 'catoptric render " + word + " -o picture.png' or 'catoptric info " + word + "'");
   throw UsageError("unknown command '" + word + "'", makeSuggestion(word, names, "see 'catoptric --help'"));
 }
 
@@ -171,7 +167,7 @@ std::string makeProgramHelp(const std::vector<Command>& commands) {
   std::string help =
       "catoptric shows what mirrors show: true reflections in flat and curved mirrors, drawn with a plain\n"
       "rasterizer, and how far each picture is from ray-traced truth, in pixels.\n\n"
-      "Usage: catoptric COMMAND [OPTIONS]\n\nCommands:\n";
+      "Usage: catoptric COMMAND [OPTIONS]\n       catoptric FILE        (looks at it: catoptric view FILE)\n\nCommands:\n";
   for (const Command& command : commands)
     help += "  " + command.name + std::string(12 - std::min<std::size_t>(command.name.size(), 11), ' ') +
             command.summary + "\n";
@@ -184,6 +180,7 @@ std::string makeProgramHelp(const std::vector<Command>& commands) {
       "Exit code: 0 done, 1 failed, 2 wrong usage, 3 a comparison exceeded its limit.\n"
       "\nExamples:\n"
       "  catoptric scenes\n"
+      "  catoptric view four-spheres\n"
       "  catoptric render four-spheres -o four-spheres.png\n"
       "  catoptric compare drivers-view -o report\n";
   return help;

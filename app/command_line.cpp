@@ -31,15 +31,23 @@ int fail(const std::vector<std::string>& line, int exitCode, const core::Error& 
   return exitCode;
 }
 
+/// `catoptric FILE` views it. A word without a dot or a slash is a command, or a slip in one.
+std::vector<std::string> withViewCommand(std::vector<std::string> line) {
+  const std::string& word = line.front();
+  const bool isPath = word.find('.') != std::string::npos || word.find('/') != std::string::npos;
+  if (isPath && !word.starts_with("-")) line.insert(line.begin(), "view");
+  return line;
+}
+
 int runCommand(const std::vector<std::string>& line) {
-  const std::vector<Command> commands{makeInfoCommand(), makeRenderCommand(), makeCompareCommand(),
-                                      makeBenchCommand(), makeScenesCommand()};
+  const std::vector<Command> commands{makeInfoCommand(),  makeRenderCommand(), makeCompareCommand(),
+                                      makeBenchCommand(), makeScenesCommand(), makeViewCommand()};
   if (line.empty()) {
     setVerbosity(Verbosity::Normal);
     say(makeProgramHelp(commands));
     return kWrongUsage;
   }
-  const ParsedLine parsed = parseArguments(commands, line);
+  const ParsedLine parsed = parseArguments(commands, withViewCommand(line));
   if (parsed.version) printData(makeVersionText());
   if (!parsed.help.empty()) printData(parsed.help);
   return parsed.command == nullptr ? int(kDone) : parsed.command->run(line);

@@ -11,5 +11,6 @@ namespace catoptric::app {
 [[nodiscard]] Command makeCompareCommand();
 [[nodiscard]] Command makeBenchCommand();
 [[nodiscard]] Command makeScenesCommand();
+[[nodiscard]] Command makeViewCommand();
 
 }  // namespace catoptric::app

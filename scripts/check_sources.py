@@ -4,7 +4,8 @@
 
 - the first lines of each source file name the licence (SPDX);
 - no source file over 400 lines, no shader over 200; over 300 and 150 is said, not refused;
-- a third-party library is seen by one folder only (Embree by reference, GL by gl, nlohmann-json by scene and app, CLI11 by app);
+- a third-party library is seen by one folder only (Embree by reference, GL by gl, nlohmann-json by scene and app, CLI11 by app,
+  GLFW and ImGui by app/viewer);
 - includes are written "catoptric/FOLDER/file.h": no way around the targets through "..";
 - GLSL lives in shaders/, not in C++ strings; a header is included once (#pragma once);
 - no disabled test without a reason on the same or the line before.
@@ -20,7 +21,7 @@ LIMITS = {"cpp": (300, 400), "h": (300, 400), "py": (300, 400), "sh": (150, 300)
           "vert": (150, 200), "frag": (150, 200), "cmake": (150, 300)}
 # Header pattern -> the only folders that may include it.
 OWNERS = {r"embree\d*/": ["src/catoptric/reference"], r"glad/|EGL/|GL/|GLES\d/": ["src/catoptric/gl"],
-          r"nlohmann/": ["src/catoptric/scene", "app", "tests"], r"CLI/": ["app"],
+          r"nlohmann/": ["src/catoptric/scene", "app", "tests"], r"CLI/": ["app"], r"GLFW/|imgui": ["app/viewer"],
           r"(png|jpeglib)\.h|webp/|OpenEXR/|Imf": ["src/catoptric/core"]}
 
 

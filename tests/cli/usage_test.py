@@ -7,7 +7,7 @@ import unittest
 
 import support
 
-COMMANDS = ("info", "render", "compare", "bench", "scenes")
+COMMANDS = ("info", "render", "compare", "bench", "scenes", "view")
 
 
 class Help(support.CommandTest):
@@ -23,7 +23,7 @@ class Help(support.CommandTest):
         text = self.succeed("--help").stdout.decode()
         for command in COMMANDS:
             self.assertRegex(text, rf"(?m)^  {command} +\S")
-        for later in ("bake", "view"):
+        for later in ("bake",):
             self.assertNotRegex(text, rf"(?m)^  {later} ")
         self.assertIn("Examples:", text)
 
@@ -54,9 +54,6 @@ class WrongUsage(support.CommandTest):
         self.refuse(2, ("'virtul'", "did you mean 'virtual'?"), *render, "--method", "virtul")
         self.refuse(2, ("'refind'", "did you mean 'refined'?"), *render, "--solver", "refind")
         self.refuse(2, ("'environmnt'", "did you mean 'environment'?"), "bench", "scene.gltf", "--methods", "environmnt")
-
-    def test_a_file_without_a_command_is_told_what_to_do(self):
-        self.refuse(2, ("viewer is not in this version", "catoptric render scene.gltf"), "scene.gltf")
 
     def test_planned_words_are_named_as_such(self):
         for option, words in (("--method", ("morphing", "zexel")),

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// catoptric view [SCENE|FOLDER]: the interactive viewer.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "catoptric/core/error.h"
+#include "commands.h"
+#include "method_variant.h"
+#include "option_values.h"
+#include "shared_options.h"
+#include "terminal.h"
+#include "viewer/viewer.h"
+
+namespace catoptric::app {
+namespace {
+
+constexpr const char* kFirstScene = "four-spheres";  // opened when nothing is named
+
+struct Options {
+  std::string source;
+  bool plainMap = false, watch = false;
+  SceneOptions scene;
+  CameraOptions camera;
+  PictureOptions frame;
+  OutputOptions output;
+};
+
+/// The scenes of a folder in alphabetical order.
+std::vector<std::string> listScenes(const std::string& folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string extension = entry.path().extension().string();
+    if (entry.is_regular_file() && (extension == ".glb" || extension == ".gltf"))
+      files.push_back(entry.path().string());
+  }
+  std::sort(files.begin(), files.end());
+  if (files.empty())
+    throw core::Error("file.not_found", "there is no .gltf or .glb file in the folder '" + folder + "'", {},
+                      "'catoptric scenes --all -o DIR' writes the built-in scenes");
+  return files;
+}
+
+/// What was typed that changes the scene and is no mirror's name (the viewer switches those).
+std::vector<std::string> findSceneOptions(const std::vector<std::string>& line) {
+  static const std::vector<std::string> kWithValue{"--scene", "--reflector-metallic", "--reflector-roughness",
+                                                   "--max-memory", "--max-pixels"};
+  std::vector<std::string> found;
+  for (std::size_t i = 0; i < line.size(); ++i)
+    for (const std::string& name : kWithValue) {
+      if (line[i].starts_with(name + "=")) found.push_back(line[i]);
+      if (line[i] == name && i + 1 < line.size()) found.push_back(name + "=" + line[i + 1]);
+    }
+  return found;
+}
+
+/// All methods, the one that the command line names first among them; it gets a row of its own if it is new.
+void listVariants(viewer::ViewerOptions& viewer) {
+  viewer.variants = {
+      {"auto", "what each mirror needs", renderer::Method::Auto, renderer::Solver::Auto, true}};
+  viewer.variants.insert(viewer.variants.end(), methodVariants().begin(), methodVariants().end());
+  const renderer::FrameOptions& wanted = viewer.frame;
+  for (std::size_t i = 0; i < viewer.variants.size(); ++i) {
+    const MethodVariant& variant = viewer.variants[i];
+    if (variant.method == wanted.method && variant.solver == wanted.solver &&
+        variant.boxCorrected == wanted.boxCorrected) {
+      viewer.variant = i;
+      return;
+    }
+  }
+  const std::string name =
+      fmt::format("{}, {}", renderer::methodName(wanted.method), renderer::solverName(wanted.solver));
+  viewer.variant = viewer.variants.size();
+  viewer.variants.push_back(
+      {name, "as on the command line", wanted.method, wanted.solver, wanted.boxCorrected});
+}
+
+/// What the viewer's loading thread calls.
+viewer::LoadResult load(const Options& options, const viewer::LoadRequest& request) {
+  SceneOptions sceneOptions = options.scene;
+  sceneOptions.reflectors.only = request.mirrors;
+  sceneOptions.noReflectors = request.noReflectors;
+  std::shared_ptr<LoadedScene> loaded = loadScene(request.source, sceneOptions);
+  loadEnvironment(*loaded, request.environment);
+  viewer::LoadResult result;
+  result.request = request;
+  // A camera that was named on the command line belongs to the first scene; others have their own.
+  result.camera = chooseCamera(*loaded, request.source == options.source ? options.camera : CameraOptions{});
+  result.reflectors = loaded->geometry.reflectors;
+  result.scene = std::move(loaded);
+  return result;
+}
+
+int run(Options options, const std::vector<std::string>& line) {
+  applyOutput(options.output);
+  if (options.source == "-" && options.watch) throw UsageError("--watch: standard input cannot be watched");
+  viewer::ViewerOptions viewer;
+  if (options.source.empty()) options.source = kFirstScene;
+  if (std::filesystem::is_directory(options.source)) {
+    viewer.files = listScenes(options.source);
+    options.source = viewer.files.front();
+  }
+  checkSource(options.source);
+  viewer.scene.source = options.source;
+  viewer.scene.environment = options.frame.environment;
+  viewer.scene.mirrors = options.scene.reflectors.only;
+  viewer.scene.noReflectors = options.scene.noReflectors;
+  viewer.frame = options.frame.frame;
+  viewer.frame.boxCorrected = !options.plainMap;
+  viewer.exposure = options.frame.exposure;
+  viewer.watch = options.watch;
+  viewer.sceneOptions = findSceneOptions(line);
+  viewer.load = [&options](const viewer::LoadRequest& request) { return load(options, request); };
+  viewer.say = say;
+  viewer.sayDetail = sayDetail;
+  viewer.printLine = [](const std::string& text) { printData(text + "\n"); };
+  listVariants(viewer);
+  viewer::runViewer(viewer);
+  return 0;
+}
+
+}  // namespace
+
+Command makeViewCommand() {
+  const auto options = std::make_shared<Options>();
+  return {.name = "view",
+          .summary = "Look at a scene interactively",
+          .examples =
+              "  catoptric view four-spheres\n"
+              "  catoptric view car.glb --watch\n"
+              "  catoptric car.glb\n"
+              "  catoptric view scenes/ --method virtual --solver explosion\n",
+          .declare =
+              [options](Arguments& arguments) {
+                arguments.positional("SCENE",
+                                     "A .gltf or .glb file, a folder of them, '-', or a built-in scene",
+                                     Arguments::Count::AtMostOne, setText(options->source));
+                arguments.group("Viewer");
+                arguments.flag("--watch", "Load the file again when it changes", options->watch);
+                declareMethod(arguments, options->frame.frame, options->plainMap);
+                declarePicture(arguments, options->frame);
+                declareCamera(arguments, options->camera);
+                declareScene(arguments, options->scene);
+                declareOutput(arguments, options->output);
+              },
+          .run = [options](const std::vector<std::string>& line) { return run(*options, line); }};
+}
+
+}  // namespace catoptric::app

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/command_text.h"
+
+#include <fmt/format.h>
+
+namespace catoptric::viewer {
+namespace {
+
+std::string vectorText(const dvec3& v) {
+  return fmt::format("{},{},{}", v.x, v.y, v.z);
+}
+
+}  // namespace
+
+std::string quoteForShell(const std::string& word) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word)
+    if (c == '\'')
+      quoted += "'\\''";
+    else
+      quoted += c;
+  quoted += '\'';
+  return quoted;
+}
+
+std::string makeCommandText(const LoadRequest& scene, const scene::Camera& camera,
+                            const renderer::FrameOptions& options, float exposure,
+                            const std::vector<std::string>& sceneOptions) {
+  const renderer::FrameOptions standard;
+  std::string text = "catoptric render " + quoteForShell(scene.source) + " -o picture.png";
+  const auto add = [&](const std::string& option, const std::string& value) {
+    text.append(" ").append(option);
+    if (!value.empty()) text.append("=").append(quoteForShell(value));
+  };
+  for (const std::string& word : sceneOptions) text.append(" ").append(quoteForShell(word));
+  for (const std::string& name : scene.mirrors) add("--reflector", name);
+  if (scene.noReflectors) add("--no-reflectors", "");
+  add("--method", std::string(renderer::methodName(options.method)));
+  if (options.solver != standard.solver) add("--solver", std::string(renderer::solverName(options.solver)));
+  if (!options.boxCorrected) add("--plain-environment-map", "");
+  add("--size", fmt::format("{}x{}", options.widthPx, options.heightPx));
+  add("--bounces", fmt::format("{}", options.bounces));
+  if (options.samples != standard.samples) add("--samples", fmt::format("{}", options.samples));
+  if (options.maxErrorPx != standard.maxErrorPx) add("--max-error", fmt::format("{}", options.maxErrorPx));
+  if (!scene.environment.empty()) add("--environment", scene.environment);
+  if (exposure != 1.0f) add("--exposure", fmt::format("{}", exposure));
+  add("--eye", vectorText(camera.eye));
+  add("--target", vectorText(camera.target));
+  add("--up", vectorText(camera.up));
+  add("--fov", fmt::format("{}", glm::degrees(camera.fovYRadians)));
+  return text;
+}
+
+}  // namespace catoptric::viewer

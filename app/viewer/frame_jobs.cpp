@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frames by a method, and the truth in passes: a quarter of the size, half, full with what is seen, then more
+// samples. Coarse passes are there within a moment, and a new view interrupts between two of them.
+#include <algorithm>
+#include <chrono>
+
+#include "catoptric/core/tone_map.h"
+#include "viewer/jobs.h"
+
+namespace catoptric::viewer {
+namespace {
+
+struct Pass {
+  int divisor, samples;
+};
+constexpr Pass kPasses[kTruthPasses] = {{4, 1}, {2, 1}, {1, 1}, {1, 4}, {1, 16}};
+
+/// The renderer of the scene that was asked for last. It refers to the scene, so it goes first.
+struct KeptRenderer {
+  ScenePointer scene;
+  std::unique_ptr<renderer::Renderer> renderer;
+
+  renderer::Frame render(const ScenePointer& wanted, const scene::Camera& camera,
+                         const renderer::FrameOptions& options) {
+    if (scene != wanted || !renderer) {
+      renderer.reset();
+      scene = wanted;
+      renderer = std::make_unique<renderer::Renderer>(scene->scene, scene->geometry, scene->environment);
+    }
+    try {
+      return renderer->render(camera, options);
+    } catch (...) {
+      renderer.reset();  // a lost context stays lost: the next frame makes a new one
+      throw;
+    }
+  }
+  ~KeptRenderer() { renderer.reset(); }
+};
+
+TruthResult judge(const TruthRequest& request, const renderer::Frame& truth, TruthResult result) {
+  const renderer::Frame& method = *request.method.frame;
+  const core::ImageRgba8& picture = request.method.picture;
+  if (truth.radiance.width() != picture.width() || method.seen.isEmpty() || truth.seen.isEmpty())
+    return result;
+  result.difference = metrics::makeDifferencePicture(picture, result.picture);
+  result.imageDifference = metrics::compareImages(picture, result.picture);
+  const metrics::DisplacementResult moved =
+      metrics::computeDisplacement(method.seen, truth.seen, truth.footprints);
+  result.displacement = metrics::makeDisplacementPicture(moved.displacementPx, picture);
+  result.objectPixels = moved.objectPixels;
+  result.mirrorPixels = moved.mirrorPixels;
+  return result;
+}
+
+}  // namespace
+
+FrameWorker::Work makeFrameWork() {
+  return [kept = std::make_shared<KeptRenderer>()](const FrameRequest& request) {
+    const auto start = std::chrono::steady_clock::now();
+    FrameResult result;
+    result.request = request;
+    result.frame =
+        std::make_shared<const renderer::Frame>(kept->render(request.scene, request.camera, request.options));
+    result.picture = core::toneMap(result.frame->radiance, request.exposure);
+    result.wholeMs =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return result;
+  };
+}
+
+TruthWorker::Work makeTruthWork() {
+  return [kept = std::make_shared<KeptRenderer>()](const TruthRequest& request) {
+    const FrameRequest& view = request.method.request;
+    const Pass pass = kPasses[std::clamp(request.pass, 0, kTruthPasses - 1)];
+    renderer::FrameOptions options = view.options;
+    options.method = renderer::Method::RayTrace;
+    options.widthPx = std::max(1, options.widthPx / pass.divisor);
+    options.heightPx = std::max(1, options.heightPx / pass.divisor);
+    options.samples = pass.samples;
+    options.withSeen = pass.divisor == 1 && pass.samples == 1;
+    options.cancel = request.cancel.get();
+    const renderer::Frame truth = kept->render(view.scene, view.camera, options);
+    TruthResult result;
+    result.view = view.view;
+    result.pass = request.pass;
+    result.samples = pass.samples;
+    result.picture = core::toneMap(truth.radiance, view.exposure);
+    // Figures compare one sample with one sample; more of them are for looking at.
+    return judge(request, truth, std::move(result));
+  };
+}
+
+}  // namespace catoptric::viewer

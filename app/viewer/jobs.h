@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// The four kinds of work that go on behind the window, each on a thread of its own (worker.h): load a scene,
+// draw a frame by a method, trace the truth, fill explosion maps.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "catoptric/metrics/displacement.h"
+#include "catoptric/metrics/image_difference.h"
+#include "catoptric/renderer/frame.h"
+#include "loaded_scene.h"
+#include "viewer/worker.h"
+
+namespace catoptric::viewer {
+
+using ScenePointer = std::shared_ptr<const app::LoadedScene>;
+
+struct LoadRequest {
+  std::string source, environment;   ///< as on the command line; no environment = the built-in sky
+  std::vector<std::string> mirrors;  ///< names of the only reflectors; empty = all ...
+  bool noReflectors = false;         ///< ... or none
+  bool keepsCamera = false;          ///< the same scene again: the eye stays where it is
+};
+
+struct LoadResult {
+  LoadRequest request;
+  ScenePointer scene;
+  scene::Camera camera;                      ///< where the command line puts it
+  std::vector<scene::Reflector> reflectors;  ///< all that the scene has, also when only some are mirrors now
+};
+
+struct FrameRequest {
+  ScenePointer scene;
+  scene::Camera camera;
+  renderer::FrameOptions options;
+  float exposure = 1;
+  std::uint64_t view = 0;  ///< counts what the user has changed
+  double scale = 1;        ///< of the full resolution
+};
+
+struct FrameResult {
+  FrameRequest request;
+  std::shared_ptr<const renderer::Frame> frame;
+  core::ImageRgba8 picture;
+  double wholeMs = 0;  ///< from request to picture, with reading back and tone mapping
+};
+
+struct TruthRequest {
+  FrameResult method;                         ///< at rest: what is judged
+  std::shared_ptr<std::atomic<bool>> cancel;  ///< made true when the view has changed
+  int pass = 0;                               ///< 0 .. kTruthPasses - 1: coarse, full size, more samples
+};
+inline constexpr int kTruthPasses = 5;
+
+struct TruthResult {
+  std::uint64_t view = 0;
+  int pass = 0, samples = 1;
+  core::ImageRgba8 picture;
+  core::ImageRgba8 difference, displacement;  ///< and figures: of the pass with full size and one sample
+  metrics::DisplacementStatistics objectPixels, mirrorPixels;
+  metrics::ImageDifference imageDifference;
+};
+
+struct MapsRequest {
+  ScenePointer scene;
+  dvec3 eye{0};
+  std::uint32_t reflector = 0;
+};
+
+struct MapsResult {
+  MapsRequest request;
+  bool canReflect = false;  ///< false: flat, or the eye sees none of its front
+  core::ImageRgba8 nearMap, farMap, hiddenMap;
+  std::size_t triangles = 0;
+};
+
+using Load = std::function<LoadResult(const LoadRequest&)>;
+using LoadWorker = Worker<LoadRequest, LoadResult>;
+using FrameWorker = Worker<FrameRequest, FrameResult>;
+using TruthWorker = Worker<TruthRequest, TruthResult>;
+using MapsWorker = Worker<MapsRequest, MapsResult>;
+
+[[nodiscard]] FrameWorker::Work makeFrameWork();
+[[nodiscard]] TruthWorker::Work makeTruthWork();
+[[nodiscard]] MapsWorker::Work makeMapsWork();
+
+}  // namespace catoptric::viewer

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::viewer {
+
+void FrameHistory::add(const FrameResult& result) {
+  const renderer::FrameTimings& times = result.frame->timings;
+  Entry& entry = entries[count++ % kFrames];
+  entry.primaryMs = float(times.primaryMs);
+  entry.verticesMs = float(times.virtualVerticesMs);
+  entry.reflectionMs = float(std::max(0.0, times.totalMs - times.primaryMs - times.virtualVerticesMs));
+  entry.readMs = float(std::max(0.0, result.wholeMs - times.totalMs));
+}
+
+renderer::FrameOptions Model::frameOptions(const ivec2& windowPx) const {
+  renderer::FrameOptions options = app::withMethod(view.frame, variants[view.variant]);
+  options.widthPx = std::max(1, int(std::lround(float(windowPx.x) * view.resolution)));
+  options.heightPx = std::max(1, int(std::lround(float(windowPx.y) * view.resolution)));
+  return options;
+}
+
+}  // namespace catoptric::viewer

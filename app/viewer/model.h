@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the viewer knows: what the user has chosen, what the work behind the window has brought, and what the
+// user wants done. Input and panels change it, the viewer acts on it.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "method_variant.h"
+#include "viewer/jobs.h"
+
+namespace catoptric::viewer {
+
+enum class Comparison : std::uint8_t { None, Split, Difference, Displacement };
+
+struct ViewState {
+  scene::Camera camera, firstCamera;
+  std::size_t variant = 0;       ///< row of Model::variants
+  renderer::FrameOptions frame;  ///< method and solver are the variant's, the size is the window's
+  float exposure = 1;
+  float resolution = 1;  ///< of the window's pixels
+  Comparison comparison = Comparison::None;
+  float split = 0.5f;  ///< where the line is, share of the width
+  bool showPanels = true, showHelp = false;
+  std::optional<std::uint32_t> mapsOf;  ///< reflector whose explosion maps are shown
+};
+
+/// What is under the mouse.
+struct Picked {
+  ivec2 pixel{0};
+  core::SeenPixel seen;
+  std::optional<dvec3> reflectionPoint;  ///< on the first mirror
+  double lawErrorDegrees = 0;  ///< between the mirrored ray and the way to the seen point; one bounce only
+};
+
+/// What the last frames took, oldest first.
+struct FrameHistory {
+  static constexpr std::size_t kFrames = 120;
+  struct Entry {
+    float primaryMs = 0, verticesMs = 0, reflectionMs = 0, readMs = 0;
+    [[nodiscard]] float sum() const { return primaryMs + verticesMs + reflectionMs + readMs; }
+  };
+  std::array<Entry, kFrames> entries{};
+  std::size_t count = 0;  ///< of all frames; the newest is entries[(count - 1) % kFrames]
+
+  void add(const FrameResult& result);
+  [[nodiscard]] const Entry* newest() const { return count == 0 ? nullptr : &entries[(count - 1) % kFrames]; }
+};
+
+/// Done once by the viewer, then cleared.
+struct Wishes {
+  bool screenshot = false, copyCommand = false, close = false, viewChanged = false;
+  std::optional<LoadRequest> load;
+};
+
+struct Model {
+  ViewState view;
+  Wishes wishes;
+  std::vector<app::MethodVariant> variants;
+  std::vector<std::string> files;  ///< of a folder, to step through
+  std::vector<std::string> sceneOptions;
+
+  LoadResult loaded;  ///< its scene is null before the first is there
+  bool isLoading = false, isDrawing = false, isTracing = false;
+  FrameResult frame;  ///< its picture is what is shown
+  std::optional<TruthResult> truth;
+  std::optional<MapsResult> maps;
+  std::optional<Picked> picked;
+  FrameHistory history;
+  std::string message;
+  bool isError = false;
+
+  [[nodiscard]] bool truthIsCurrent() const { return truth && truth->view == frame.request.view; }
+  /// The options of a frame that fills the window.
+  [[nodiscard]] renderer::FrameOptions frameOptions(const ivec2& windowPx) const;
+};
+
+}  // namespace catoptric::viewer

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/scene_panels.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+namespace catoptric::viewer {
+namespace {
+
+const char* shapeName(const scene::Reflector& reflector) {
+  switch (reflector.shape) {
+    case scene::ReflectorShape::Plane:
+      return "plane";
+    case scene::ReflectorShape::Sphere:
+      return "sphere";
+    case scene::ReflectorShape::Cylinder:
+      return "cylinder";
+    case scene::ReflectorShape::Cone:
+      return "cone";
+    case scene::ReflectorShape::Mesh:
+      return reflector.isConvex ? "convex mesh" : "mesh";
+  }
+  return "?";
+}
+
+bool isMirrorNow(const Model& model, const std::string& name) {
+  const auto& now = model.loaded.scene->geometry.reflectors;
+  return std::any_of(now.begin(), now.end(), [&](const scene::Reflector& r) { return r.name == name; });
+}
+
+/// The scene again, with this mirror on or off.
+LoadRequest switchMirror(const Model& model, const std::string& name, bool on) {
+  LoadRequest request = model.loaded.request;
+  request.keepsCamera = true;
+  request.mirrors.clear();
+  for (const scene::Reflector& reflector : model.loaded.reflectors)
+    if (reflector.name == name ? on : isMirrorNow(model, reflector.name))
+      request.mirrors.push_back(reflector.name);
+  request.noReflectors = request.mirrors.empty();
+  if (request.mirrors.size() == model.loaded.reflectors.size()) request.mirrors.clear();
+  return request;
+}
+
+void drawReflectorRow(Model& model, const scene::Reflector& reflector) {
+  bool on = isMirrorNow(model, reflector.name);
+  ImGui::TableNextColumn();
+  if (ImGui::Checkbox(reflector.name.c_str(), &on) && !model.isLoading)
+    model.wishes.load = switchMirror(model, reflector.name, on);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", reflector.reason.c_str());
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(shapeName(reflector));
+  ImGui::TableNextColumn();
+  const renderer::MethodChoice choice = renderer::Renderer::chooseMethod(reflector);
+  ImGui::TextUnformatted(
+      reflector.shape == scene::ReflectorShape::Plane
+          ? "planar mirror"
+          : fmt::format("{}, {}", renderer::methodName(choice.method), renderer::solverName(choice.solver))
+                .c_str());
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", choice.reason.c_str());
+  ImGui::TableNextColumn();
+  if (on && reflector.shape != scene::ReflectorShape::Plane && ImGui::SmallButton("maps")) {
+    const auto& now = model.loaded.scene->geometry.reflectors;
+    for (std::size_t i = 0; i < now.size(); ++i)
+      if (now[i].name == reflector.name) model.view.mapsOf = std::uint32_t(i);
+  }
+}
+
+void drawMap(const char* title, const ShownPicture& picture) {
+  ImGui::BeginGroup();
+  ImGui::TextUnformatted(title);
+  if (!picture.isEmpty()) ImGui::Image(picture.imguiId(), ImVec2(200, 200), ImVec2(0, 1), ImVec2(1, 0));
+  ImGui::EndGroup();
+}
+
+}  // namespace
+
+void drawReflectors(Model& model) {
+  if (model.loaded.reflectors.empty()) return ImGui::TextUnformatted("the scene has no mirrors");
+  if (!ImGui::BeginTable("mirrors", 4,
+                         ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingFixedFit,
+                         ImVec2(420, std::min(220.0f, 28.0f * float(model.loaded.reflectors.size()) + 8.0f))))
+    return;
+  for (std::size_t i = 0; i < model.loaded.reflectors.size(); ++i) {
+    ImGui::PushID(int(i));
+    drawReflectorRow(model, model.loaded.reflectors[i]);
+    ImGui::PopID();
+  }
+  ImGui::EndTable();
+}
+
+void drawMaps(Model& model, const MapPictures& maps) {
+  if (!model.view.mapsOf) return;
+  bool isShown = true;
+  ImGui::SetNextWindowPos(ImVec2(ImGui::GetIO().DisplaySize.x - 10, 10), ImGuiCond_FirstUseEver,
+                          ImVec2(1, 0));
+  ImGui::SetNextWindowBgAlpha(0.9f);
+  if (ImGui::Begin("explosion maps", &isShown,
+                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
+    const auto& reflectors = model.loaded.scene->geometry.reflectors;
+    if (*model.view.mapsOf < reflectors.size())
+      ImGui::TextUnformatted(reflectors[*model.view.mapsOf].name.c_str());
+    if (model.maps && model.maps->request.scene == model.loaded.scene &&
+        model.maps->request.reflector == *model.view.mapsOf) {
+      if (!model.maps->canReflect) {
+        ImGui::TextUnformatted("flat, or the eye sees none of its front: it has no maps");
+      } else {
+        ImGui::TextUnformatted(
+            fmt::format("{} triangles, a colour each; dim: extension polygons", model.maps->triangles)
+                .c_str());
+        drawMap("near", maps.nearMap);
+        ImGui::SameLine();
+        drawMap("far", maps.farMap);
+        ImGui::SameLine();
+        drawMap("hidden", maps.hiddenMap);
+      }
+    } else {
+      ImGui::TextUnformatted("...");
+    }
+  }
+  ImGui::End();
+  if (!isShown) model.view.mapsOf.reset();
+}
+
+}  // namespace catoptric::viewer

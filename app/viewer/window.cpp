@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "viewer/window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+#include <imgui_impl_glfw.h>
+#include <imgui_impl_opengl3.h>
+#include <imgui_impl_opengl3_loader.h>
+
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <utility>
+
+#include "catoptric/core/error.h"
+
+namespace catoptric::viewer {
+namespace {
+
+constexpr int kLinear = 0x2601, kNearest = 0x2600;  // GL_LINEAR, GL_NEAREST
+
+std::string& lastGlfwError() {
+  static std::string text;
+  return text;
+}
+
+void onGlfwError(int, const char* text) {
+  lastGlfwError() = text;
+}
+
+[[noreturn]] void throwUnavailable() {
+  throw core::Error(
+      "window.unavailable", "no window can be opened: " + lastGlfwError(), {},
+      "run it in a graphical session, or draw to a file: catoptric render SCENE -o picture.png");
+}
+
+/// Other threads wake the window while it may be closing.
+struct OpenState {
+  std::mutex mutex;
+  bool isOpen = false;
+};
+
+OpenState& openState() {
+  static OpenState state;
+  return state;
+}
+
+void setOpen(bool isOpen) {
+  const std::lock_guard lock(openState().mutex);
+  openState().isOpen = isOpen;
+}
+
+}  // namespace
+
+struct Window::Impl {
+  GLFWwindow* window = nullptr;
+  std::vector<std::string> dropped;
+  std::vector<KeyPress> keys;
+
+  static void onKey(GLFWwindow* window, int key, int, int action, int modifiers) {
+    auto* self = static_cast<Impl*>(glfwGetWindowUserPointer(window));
+    if (action == GLFW_PRESS)
+      self->keys.push_back({key, (modifiers & GLFW_MOD_CONTROL) != 0, (modifiers & GLFW_MOD_SHIFT) != 0});
+  }
+
+  static void onDrop(GLFWwindow* window, int count, const char** paths) {
+    auto* self = static_cast<Impl*>(glfwGetWindowUserPointer(window));
+    self->dropped.assign(paths, paths + count);
+  }
+
+  void open(const std::string& title, int widthPx, int heightPx) {
+    glfwSetErrorCallback(onGlfwError);
+    if (!glfwInit()) throwUnavailable();
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    window = glfwCreateWindow(widthPx, heightPx, title.c_str(), nullptr, nullptr);
+    if (!window) {
+      glfwTerminate();
+      throwUnavailable();
+    }
+    glfwMakeContextCurrent(window);
+    glfwSwapInterval(1);
+    glfwSetWindowUserPointer(window, this);
+    glfwSetDropCallback(window, onDrop);
+    glfwSetKeyCallback(window, onKey);  // before ImGui, which calls it in turn
+  }
+};
+
+Window::Window(const std::string& title, int widthPx, int heightPx) : impl_(std::make_unique<Impl>()) {
+  impl_->open(title, widthPx, heightPx);
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
+  ImGui::StyleColorsDark();
+  ImGui::GetStyle().WindowRounding = 4.0f;
+  ImGui_ImplGlfw_InitForOpenGL(impl_->window, true);
+  if (!ImGui_ImplOpenGL3_Init("#version 330 core")) {
+    lastGlfwError() = "its OpenGL functions could not be loaded";
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+    glfwTerminate();
+    throwUnavailable();
+  }
+  setOpen(true);
+}
+
+Window::~Window() {
+  setOpen(false);
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+  glfwDestroyWindow(impl_->window);
+  glfwTerminate();
+}
+
+bool Window::shouldClose() const {
+  return glfwWindowShouldClose(impl_->window) != 0;
+}
+
+void Window::close() {
+  glfwSetWindowShouldClose(impl_->window, GLFW_TRUE);
+}
+
+void Window::setTitle(const std::string& title) {
+  glfwSetWindowTitle(impl_->window, title.c_str());
+}
+
+bool Window::waitForEvents(double seconds) {
+  if (seconds <= 0) {
+    glfwPollEvents();
+    return true;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  glfwWaitEventsTimeout(seconds);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < 0.95 * seconds;
+}
+
+void Window::wake() {
+  const std::lock_guard lock(openState().mutex);
+  if (openState().isOpen) glfwPostEmptyEvent();
+}
+
+void Window::beginFrame() {
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+}
+
+void Window::endFrame() {
+  ImGui::Render();
+  const ivec2 size = sizePx();
+  glViewport(0, 0, size.x, size.y);
+  glClearColor(0.06f, 0.06f, 0.07f, 1.0f);
+  glClear(GL_COLOR_BUFFER_BIT);
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  glfwSwapBuffers(impl_->window);
+}
+
+ivec2 Window::sizePx() const {
+  ivec2 size(0);
+  glfwGetFramebufferSize(impl_->window, &size.x, &size.y);
+  return size;
+}
+
+std::vector<KeyPress> Window::takeKeys() {
+  return std::exchange(impl_->keys, {});
+}
+
+std::vector<std::string> Window::takeDroppedFiles() {
+  return std::exchange(impl_->dropped, {});
+}
+
+void Window::copyText(const std::string& text) {
+  glfwSetClipboardString(impl_->window, text.c_str());
+}
+
+ShownPicture::~ShownPicture() {
+  if (id_ != 0) glDeleteTextures(1, &id_);
+}
+
+void ShownPicture::set(const core::ImageRgba8& picture) {
+  upload(picture, kLinear);
+}
+
+void ShownPicture::setExact(const core::ImageRgba8& picture) {
+  upload(picture, kNearest);
+}
+
+void ShownPicture::upload(const core::ImageRgba8& picture, int filter) {
+  if (picture.isEmpty()) return;
+  if (id_ == 0) glGenTextures(1, &id_);
+  glBindTexture(GL_TEXTURE_2D, id_);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+  glTexParameteri(GL_TEXTURE_2D, 0x2802,
+                  0x812F);  // wrap both ways: clamp to edge, which ImGui's loader does not name
+  glTexParameteri(GL_TEXTURE_2D, 0x2803, 0x812F);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, picture.width(), picture.height(), 0, GL_RGBA, GL_UNSIGNED_BYTE,
+               picture.data());
+}
+
+}  // namespace catoptric::viewer
