@@ -5,12 +5,16 @@
 
 #include <cmath>
 
+#include "catoptric/core/image_io.h"
 #include "catoptric/core/progress.h"
 #include "catoptric/core/tone_map.h"
+#include "data_address.h"
 #include "pictures.h"
 
 namespace catoptric::app {
 namespace {
+
+constexpr int kEmbeddedQuality = 90;
 
 const MethodVariant& truthVariant() {
   return methodVariants().back();
@@ -31,29 +35,36 @@ class ViewComparer {
       : options_(options), truth_(truth), truthPicture_(core::toneMap(truth.radiance, options.exposure)) {}
 
   [[nodiscard]] ComparisonRow judge(const MethodVariant& variant, const renderer::Frame& frame) const {
-    ComparisonRow row{
-        .variant = variant, .displacement = {}, .mirrors = {}, .primary = {}, .times = {}, .files = {}};
+    ComparisonRow row{.variant = variant,
+                      .displacement = {},
+                      .mirrors = {},
+                      .primary = {},
+                      .times = {},
+                      .files = {},
+                      .embedded = {}};
     const core::ImageRgba8 picture = core::toneMap(frame.radiance, options_.exposure);
     row.displacement = metrics::computeDisplacement(frame.seen, truth_.seen, truth_.footprints);
     row.mirrors = metrics::compareImages(picture, truthPicture_, makeMask(frame.seen, truth_.seen, true));
     row.primary = metrics::compareImages(picture, truthPicture_, makeMask(frame.seen, truth_.seen, false));
-    row.files.picture = write(variant.name, picture);
+    keep(variant.name, picture, row.files.picture, row.embedded.picture);
     if (!row.isTruth()) {
-      row.files.displacement =
-          write(variant.name + ".displacement",
-                metrics::makeDisplacementPicture(row.displacement.displacementPx, truthPicture_));
-      row.files.difference =
-          write(variant.name + ".difference", metrics::makeDifferencePicture(picture, truthPicture_));
+      keep(variant.name + ".displacement",
+           metrics::makeDisplacementPicture(row.displacement.displacementPx, truthPicture_),
+           row.files.displacement, row.embedded.displacement);
+      keep(variant.name + ".difference", metrics::makeDifferencePicture(picture, truthPicture_),
+           row.files.difference, row.embedded.difference);
     }
     row.displacement.displacementPx = {};
     return row;
   }
 
  private:
-  [[nodiscard]] std::string write(const std::string& name, const core::ImageRgba8& picture) const {
-    std::string file = options_.viewFolder + "/" + name + ".png";
+  /// As a file beside the page, and as text within it.
+  void keep(const std::string& name, const core::ImageRgba8& picture, std::string& file,
+            std::string& embedded) const {
+    file = options_.viewFolder + "/" + name + ".png";
     writePng((options_.folder / file).string(), picture);
-    return file;
+    embedded = makeDataAddress("image/jpeg", core::encodeJpeg(picture, kEmbeddedQuality));
   }
 
   const ComparisonOptions& options_;

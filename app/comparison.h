@@ -19,6 +19,9 @@ struct ComparisonFiles {
       difference;  ///< relative to the report's folder; empty where there is none
 };
 
+/// The same pictures as data: addresses (JPEG), for the page that carries them in itself.
+using EmbeddedPictures = ComparisonFiles;
+
 struct ComparisonRow {
   MethodVariant variant;
   metrics::DisplacementResult displacement;  ///< the image is not kept
@@ -26,6 +29,7 @@ struct ComparisonRow {
   metrics::ImageDifference primary;          ///< pictures everywhere else
   FrameTimes times;
   ComparisonFiles files;
+  EmbeddedPictures embedded;
 
   [[nodiscard]] bool isTruth() const { return variant.method == renderer::Method::RayTrace; }
 };

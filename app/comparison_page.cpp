@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
+#include "report_files.h"
+
 namespace catoptric::app {
 namespace {
 
@@ -12,24 +16,6 @@ constexpr const char* kHead = R"(<!doctype html>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <title>catoptric: methods against ray-traced truth</title>
-<style>
-:root { color-scheme: light dark; --line: #8884; --dim: #777; }
-body { font: 15px/1.5 system-ui, sans-serif; max-width: 110rem; margin: 0 auto; padding: 1.5rem; }
-h1 { font-size: 1.5rem; margin: 0 0 .3rem; } h2 { font-size: 1.2rem; margin: 2.5rem 0 .3rem; }
-p { margin: .4rem 0; max-width: 60rem; } .dim, figcaption { color: var(--dim); }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: .8rem 0; display: block; overflow-x: auto; }
-th, td { padding: .2rem .7rem; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
-th:first-child, td:first-child { text-align: left; } th { font-weight: 600; }
-tr.truth td { color: var(--dim); }
-.row { display: grid; grid-template-columns: repeat(auto-fit, minmax(16rem, 1fr)); gap: .8rem; margin: .6rem 0 1.4rem; }
-figure { margin: 0; } img { width: 100%; height: auto; display: block; background: #0003; }
-figcaption { font-size: .85rem; padding: .15rem 0; }
-h3 { font-size: 1rem; margin: 1.2rem 0 .2rem; }
-pre { background: #8881; padding: .6rem .8rem; overflow-x: auto; white-space: pre-wrap; }
-.ramp { display: inline-block; width: 1em; height: 1em; vertical-align: -.15em; margin: 0 .2em 0 .8em; }
-</style>
-</head>
-<body>
 )";
 
 constexpr const char* kIntroduction =
@@ -43,18 +29,7 @@ the room: walls flatter every method, so these are the figures that count.</p>
 <span class="ramp" style="background:#ebdc3c"></span>2 px
 <span class="ramp" style="background:#f08c1e"></span>8 px
 <span class="ramp" style="background:#c81010"></span>lost. Differences are shown eight times as strong as they are.
-Point at a picture to see the truth in its place.</p>
-)";
-
-constexpr const char* kFoot = R"(<script>
-for (const image of document.querySelectorAll("img[data-truth]")) {
-  const own = image.getAttribute("src");
-  image.addEventListener("pointerenter", () => image.setAttribute("src", image.dataset.truth));
-  image.addEventListener("pointerleave", () => image.setAttribute("src", own));
-}
-</script>
-</body>
-</html>
+A click on a table's heading sorts it; a picture leads to its file beside this page, without the losses of the copy in here.</p>
 )";
 
 /// Text for HTML; names in a file may hold anything.
@@ -103,35 +78,69 @@ std::string makeHtmlTable(const Comparison& comparison) {
   return html + "</table>\n";
 }
 
-std::string makeFigure(const std::string& file, const std::string& caption,
-                       const std::string& truthFile = {}) {
+std::string makeFigure(const std::string& file, const std::string& caption) {
   if (file.empty()) return {};
-  const std::string swap = truthFile.empty() ? "" : fmt::format(" data-truth=\"{}\"", escapeUrl(truthFile));
   return fmt::format(
-      "<figure><a href=\"{0}\"><img loading=\"lazy\" src=\"{0}\" alt=\"{1}\"{2}></a>"
-      "<figcaption>{1}</figcaption></figure>\n",
-      escapeUrl(file), escape(caption), swap);
+      "<figure><a href=\"{0}\"><img data-picture=\"{1}\" "
+      "alt=\"{2}\"></a><figcaption>{2}</figcaption></figure>\n",
+      escapeUrl(file), escape(file), escape(caption));
 }
 
-std::string makeSection(const Comparison& comparison) {
+std::string makeSection(const Comparison& comparison, std::size_t index) {
   const std::string truth = comparison.rows.back().files.picture;
   std::string html = fmt::format(
-      "<h2>{}</h2>\n<p class=\"dim\">camera \"{}\", {}x{}, {} mirror bounce(s), {} sample(s) "
+      "<section data-view=\"{}\">\n<h2>{}</h2>\n<p class=\"dim\">camera \"{}\", {}x{}, {} mirror bounce(s), "
+      "{} sample(s) "
       "a pixel</p>\n",
-      escape(comparison.sceneName), escape(comparison.camera.name), comparison.frame.widthPx,
+      index, escape(comparison.sceneName), escape(comparison.camera.name), comparison.frame.widthPx,
       comparison.frame.heightPx, comparison.frame.bounces, comparison.frame.samples);
-  html += makeHtmlTable(comparison);
+  html += makeHtmlTable(comparison) + "<div class=\"moving\"></div>\n";
   for (const ComparisonRow& row : comparison.rows) {
     if (row.isTruth()) continue;
     html += fmt::format("<h3>{}: {}</h3>\n<div class=\"row\">\n", escape(row.variant.name),
                         escape(row.variant.description));
-    html += makeFigure(row.files.picture, row.variant.name, truth);
+    html += makeFigure(row.files.picture, row.variant.name);
     html += makeFigure(truth, "ray-traced truth");
     html += makeFigure(row.files.displacement, "displacement");
     html += makeFigure(row.files.difference, "difference x 8");
     html += "</div>\n";
   }
-  return html;
+  return html + "</section>\n";
+}
+
+/// What report.js reads.
+Json makePageData(const std::vector<Comparison>& comparisons) {
+  Json data{
+      {"distribution_px", metrics::kDistributionPx}, {"views", Json::array()}, {"pictures", Json::object()}};
+  for (const Comparison& comparison : comparisons) {
+    Json rows = Json::array();
+    for (const ComparisonRow& row : comparison.rows) {
+      const metrics::DisplacementStatistics& objects = row.displacement.objectPixels;
+      rows.push_back({{"name", row.variant.name},
+                      {"picture", row.files.picture},
+                      {"median_ms", row.times.medianMs},
+                      {"mean_px", objects.meanPx},
+                      {"share_within", objects.pixels > 0 ? Json(objects.shareWithin) : Json(nullptr)}});
+      data["pictures"][row.files.picture] = row.embedded.picture;
+      if (row.isTruth()) continue;
+      data["pictures"][row.files.displacement] = row.embedded.displacement;
+      data["pictures"][row.files.difference] = row.embedded.difference;
+    }
+    data["views"].push_back({{"rows", rows}});
+  }
+  return data;
+}
+
+/// JSON within a script element: nothing in it may end the element.
+std::string makeDataBlock(const Json& data) {
+  std::string text = serialise(data);
+  for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3)
+    text.replace(at, 2, "<\\/");
+  return "<script type=\"application/json\" id=\"report\">" + text + "</script>\n";
+}
+
+void appendElement(std::string& html, std::string_view name, std::string_view content) {
+  html.append("<").append(name).append(">\n").append(content).append("</").append(name).append(">\n");
 }
 
 std::string makeEnvironmentList(const Json& environment) {
@@ -146,12 +155,16 @@ std::string makeEnvironmentList(const Json& environment) {
 std::string makeComparisonPage(const std::vector<Comparison>& comparisons, const Json& document,
                                const std::string& command) {
   std::string html = kHead;
-  html += "<h1>Reflections against ray-traced truth</h1>\n";
+  appendElement(html, "style", reportStyle());
+  html += "</head>\n<body>\n<h1>Reflections against ray-traced truth</h1>\n";
   html += kIntroduction;
   html += "<pre>" + escape(command) + "</pre>\n";
-  for (const Comparison& comparison : comparisons) html += makeSection(comparison);
+  for (std::size_t i = 0; i < comparisons.size(); ++i) html += makeSection(comparisons[i], i);
   html += makeEnvironmentList(document["environment"]);
-  return html + kFoot;
+  html += makeDataBlock(makePageData(comparisons));
+  appendElement(html, "script", chartLibrary());
+  appendElement(html, "script", reportScript());
+  return html + "</body>\n</html>\n";
 }
 
 }  // namespace catoptric::app

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page that compare leaves: pictures side by side, error maps, the table. One file that works offline;
-// the pictures lie beside it.
+// The page that compare leaves: a slider between any two methods, pictures, error maps, charts, tables. One file
+// that works offline and can be sent to somebody: pictures, style, script and chart library are in it.
 #pragma once
 
 #include <string>

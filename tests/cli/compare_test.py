@@ -44,8 +44,9 @@ class Compare(support.CommandTest):
         page = self.read("report", "index.html").decode()
         self.assertTrue(page.startswith("<!doctype html>"))
         self.assertTrue(page.rstrip().endswith("</html>"))
-        self.assertNotIn("://", page)
-        files = set(re.findall(r'(?:src|href|data-truth)="([^"]+)"', page))
+        self.assertNotRegex(page, r'(?:src|href)="?[a-z]+://')
+        self.assertNotRegex(page, r'@import|url\(')
+        files = set(re.findall(r'href="([^"]+)"', page))
         self.assertEqual(len(files), 2 * 3 + 1)
         for file in files:
             self.assertTrue(os.path.exists(self.path("report", file)), file)

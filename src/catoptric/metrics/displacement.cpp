@@ -208,8 +208,11 @@ DisplacementStatistics computeStatistics(std::vector<float> values) {
     within1 += value <= 1.0f ? 1 : 0;
     within2 += value <= 2.0f ? 1 : 0;
     lost += value >= kLostPx ? 1 : 0;
+    for (std::size_t i = 0; i < kDistributionPx.size(); ++i)
+      statistics.shareWithin[i] += value <= kDistributionPx[i] ? 1 : 0;
   }
   const auto count = double(values.size());
+  for (double& share : statistics.shareWithin) share /= count;
   statistics.meanPx = sum / count;
   statistics.shareWithin1Px = double(within1) / count;
   statistics.shareWithin2Px = double(within2) / count;

@@ -2,6 +2,7 @@
 // How far, in pixels, a method's reflections are from ray-traced truth (methods.md, section 6).
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "catoptric/core/image.h"
@@ -11,10 +12,15 @@ namespace catoptric::metrics {
 
 inline constexpr float kLostPx = 24.0f;  ///< Also the radius of the search.
 
+/// Steps at which distributions are given, pixels.
+inline constexpr std::array<float, 12> kDistributionPx{0.01f, 0.02f, 0.05f, 0.1f,  0.2f,  0.5f,
+                                                       1.0f,  2.0f,  5.0f,  10.0f, 15.0f, 20.0f};
+
 struct DisplacementStatistics {
   std::uint64_t pixels = 0;
   double medianPx = 0, p95Px = 0, meanPx = 0;
   double shareWithin1Px = 0, shareWithin2Px = 0, shareLost = 0;  ///< of `pixels`; 0..1
+  std::array<double, kDistributionPx.size()> shareWithin{};      ///< at most kDistributionPx[i]
 };
 
 struct DisplacementResult {
