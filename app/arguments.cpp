@@ -167,7 +167,8 @@ std::string makeProgramHelp(const std::vector<Command>& commands) {
   std::string help =
       "catoptric shows what mirrors show: true reflections in flat and curved mirrors, drawn with a plain\n"
       "rasterizer, and how far each picture is from ray-traced truth, in pixels.\n\n"
-      "Usage: catoptric COMMAND [OPTIONS]\n       catoptric FILE        (looks at it: catoptric view FILE)\n\nCommands:\n";
+      "Usage: catoptric COMMAND [OPTIONS]\n       catoptric FILE        (looks at it: catoptric view "
+      "FILE)\n\nCommands:\n";
   for (const Command& command : commands)
     help += "  " + command.name + std::string(12 - std::min<std::size_t>(command.name.size(), 11), ' ') +
             command.summary + "\n";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page that compare leaves: a slider between any two methods, pictures, error maps, charts, tables. One file
-// that works offline and can be sent to somebody: pictures, style, script and chart library are in it.
+// The page that compare leaves: a slider between any two methods, pictures, error maps, charts, tables. One
+// file that works offline and can be sent to somebody: pictures, style, script and chart library are in it.
 #pragma once
 
 #include <string>

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// The loop itself, and what comes out of the work behind the window.
+#include "viewer/viewer_loop.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "viewer/input.h"
+
+namespace catoptric::viewer {
+namespace {
+
+constexpr double kRestSeconds = 0.25;  // after this long without a change the view is at rest
+constexpr double kMessageSeconds = 5.0;
+constexpr double kIdleSeconds = 1.0;  // an idle window still looks after its file and its messages
+constexpr int kDrawsAfterEvent = 3;
+
+double secondsSince(ViewerLoop::Clock::time_point start) {
+  return std::chrono::duration<double>(ViewerLoop::Clock::now() - start).count();
+}
+
+}  // namespace
+
+ViewerLoop::ViewerLoop(const ViewerOptions& options)
+    : options_(options),
+      loader_([&options] { return options.load; }, Window::wake),
+      drawer_(makeFrameWork, Window::wake),
+      tracer_(makeTruthWork, Window::wake),
+      mapper_(makeMapsWork, Window::wake),
+      window_("catoptric", options.frame.widthPx, options.frame.heightPx) {
+  model_.variants = options.variants;
+  model_.files = options.files;
+  model_.sceneOptions = options.sceneOptions;
+  model_.view.variant = options.variant;
+  model_.view.frame = options.frame;
+  model_.view.exposure = options.exposure;
+  load(options.scene);
+}
+
+void ViewerLoop::run() {
+  while (!window_.shouldClose()) {
+    if (window_.waitForEvents(drawsLeft_ > 0 ? 0.0 : waitSeconds()) && drawsLeft_ == 0)
+      drawsLeft_ = kDrawsAfterEvent;
+    drawsLeft_ = std::max(0, drawsLeft_ - 1);
+    takeResults();
+    openDropped();
+    const ivec2 size = window_.sizePx();
+    if (size != windowPx_ && size.x > 0 && size.y > 0) {
+      windowPx_ = size;
+      model_.wishes.viewChanged = true;
+    }
+    window_.beginFrame();
+    drawPicture(model_, pictures_, windowPx_);
+    drawPanels(model_, maps_);
+    handleInput(model_, window_.takeKeys(), windowPx_);
+    window_.endFrame();
+    grantWishes();
+    askForFrame();
+    askForTruth();
+    askForMaps();
+    if (options_.watch && watched_.hasChanged() && !model_.isLoading) {
+      LoadRequest again = model_.loaded.request;
+      again.keepsCamera = true;
+      load(again);
+    }
+  }
+}
+
+double ViewerLoop::waitSeconds() const {
+  if (!isAtRest() || model_.wishes.screenshot) return 0.05;
+  return options_.watch ? 0.5 : kIdleSeconds;
+}
+
+void ViewerLoop::takeResults() {
+  // Failures of the first scene end the viewer; later ones are shown, and what was there stays.
+  const auto attempt = [&](const auto& take) {
+    try {
+      take();
+    } catch (const std::exception& error) {
+      if (!model_.loaded.scene) throw;
+      tell(error.what(), true);
+    }
+  };
+  attempt([&] {
+    if (auto result = loader_.take()) takeScene(std::move(*result));
+  });
+  attempt([&] {
+    if (auto result = drawer_.take()) takeFrame(std::move(*result));
+  });
+  attempt([&] {
+    if (auto result = tracer_.take()) takeTruth(std::move(*result));
+  });
+  attempt([&] {
+    if (auto result = mapper_.take()) takeMaps(std::move(*result));
+  });
+  model_.isLoading = loader_.isBusy();
+  model_.isDrawing = drawer_.isBusy();
+  model_.isTracing = tracer_.isBusy();
+  if (!model_.message.empty() && !model_.isError && secondsSince(messageTime_) > kMessageSeconds)
+    model_.message.clear();
+}
+
+void ViewerLoop::takeScene(LoadResult result) {
+  const bool isSubset = !result.request.mirrors.empty() || result.request.noReflectors;
+  if (isSubset && model_.loaded.scene && model_.loaded.request.source == result.request.source)
+    result.reflectors = model_.loaded.reflectors;
+  if (!result.request.keepsCamera || !model_.loaded.scene)
+    model_.view.camera = model_.view.firstCamera = result.camera;
+  model_.loaded = std::move(result);
+  model_.view.mapsOf.reset();
+  model_.wishes.viewChanged = true;
+  model_.message.clear();
+  if (options_.watch && !model_.loaded.scene->isBuiltIn) watched_.watch(model_.loaded.request.source);
+  window_.setTitle(model_.loaded.scene->name + " - catoptric");
+}
+
+void ViewerLoop::takeFrame(FrameResult result) {
+  if (!model_.frame.frame)
+    options_.sayDetail(fmt::format("first picture after {:.0f} ms", 1e3 * secondsSince(start_)));
+  moving_.learn(result.request.scale, result.wholeMs);
+  model_.history.add(result);
+  pictures_.method.set(result.picture);
+  model_.frame = std::move(result);
+  drawsLeft_ = std::max(drawsLeft_, 1);
+  if (isFrameSettled())
+    options_.sayDetail(fmt::format("settled: {}, {}x{}, {:.0f} ms", model_.variants[model_.view.variant].name,
+                                   model_.frame.picture.width(), model_.frame.picture.height(),
+                                   model_.frame.wholeMs));
+}
+
+void ViewerLoop::takeTruth(TruthResult result) {
+  if (result.view != view_) return;
+  pictures_.truth.set(result.picture);
+  if (result.difference.isEmpty() && model_.truthIsCurrent()) {  // a later pass: figures stay
+    result.difference = std::move(model_.truth->difference);
+    result.displacement = std::move(model_.truth->displacement);
+    result.objectPixels = model_.truth->objectPixels;
+    result.mirrorPixels = model_.truth->mirrorPixels;
+    result.imageDifference = model_.truth->imageDifference;
+  } else {
+    pictures_.difference.set(result.difference);
+    pictures_.displacement.set(result.displacement);
+  }
+  options_.sayDetail(fmt::format("truth: pass {} of {}", result.pass + 1, kTruthPasses));
+  model_.truth = std::move(result);
+}
+
+void ViewerLoop::takeMaps(MapsResult result) {
+  maps_.nearMap.setExact(result.nearMap);
+  maps_.farMap.setExact(result.farMap);
+  maps_.hiddenMap.setExact(result.hiddenMap);
+  model_.maps = std::move(result);
+}
+
+bool ViewerLoop::isAtRest() const {
+  return secondsSince(lastChange_) >= kRestSeconds;
+}
+
+void runViewer(const ViewerOptions& options) {
+  ViewerLoop(options).run();
+}
+
+}  // namespace catoptric::viewer

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// The loop behind viewer.h: wait for an event or for work that is done, take results, let the user act, draw,
+// ask for what is missing. Nothing in here takes long.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "viewer/command_text.h"
+#include "viewer/panels.h"
+#include "viewer/picture_view.h"
+#include "viewer/resolution.h"
+#include "viewer/viewer.h"
+#include "viewer/watched_file.h"
+#include "viewer/window.h"
+
+namespace catoptric::viewer {
+
+class ViewerLoop {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  explicit ViewerLoop(const ViewerOptions& options);
+  /// A pass of the truth that nobody will see need not be finished.
+  ~ViewerLoop() {
+    if (cancelTruth_) *cancelTruth_ = true;
+  }
+  ViewerLoop(const ViewerLoop&) = delete;
+  ViewerLoop& operator=(const ViewerLoop&) = delete;
+  void run();
+
+ private:
+  void takeResults();
+  void takeScene(LoadResult result);
+  void takeFrame(FrameResult result);
+  void takeTruth(TruthResult result);
+  void takeMaps(MapsResult result);
+  void openDropped();
+  void grantWishes();
+  void writeScreenshot();
+  [[nodiscard]] std::string commandText() const {
+    return makeCommandText(model_.loaded.request, model_.view.camera, model_.frameOptions(windowPx_),
+                           model_.view.exposure, model_.sceneOptions);
+  }
+  void askForFrame();
+  void askForTruth();
+  void askForMaps();
+  void load(const LoadRequest& request);
+  void tell(const std::string& message, bool isError = false);
+  [[nodiscard]] double waitSeconds() const;
+  [[nodiscard]] bool isAtRest() const;
+  /// True when the frame shown is the current view in full.
+  [[nodiscard]] bool isFrameSettled() const {
+    return model_.frame.frame && model_.frame.request.view == view_ && model_.frame.request.options.withSeen;
+  }
+
+  const ViewerOptions& options_;
+  Clock::time_point start_ = Clock::now();
+  // Workers outlive the window: it is gone at once when it is closed, however long the work in hand takes.
+  LoadWorker loader_;
+  FrameWorker drawer_;
+  TruthWorker tracer_;
+  MapsWorker mapper_;
+  Window window_;
+  ShownPictures pictures_;
+  MapPictures maps_;
+  Model model_;
+  MovingResolution moving_;
+  WatchedFile watched_;
+  Clock::time_point lastChange_{}, messageTime_{};
+  std::uint64_t view_ = 1;
+  FrameRequest asked_;
+  MapsRequest askedMaps_;
+  std::shared_ptr<std::atomic<bool>> cancelTruth_;  ///< of the pass in hand
+  ivec2 windowPx_{0};
+  int drawsLeft_ = 3;  ///< ImGui reacts to an event a frame or two later
+};
+
+}  // namespace catoptric::viewer

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the user wants done, and what the work behind the window is asked for.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "catoptric/core/error.h"
+#include "catoptric/core/file.h"
+#include "catoptric/core/image_io.h"
+#include "viewer/viewer_loop.h"
+
+namespace catoptric::viewer {
+namespace {
+
+bool isEnvironmentFile(const std::string& file) {
+  return file.ends_with(".hdr") || file.ends_with(".exr") || file.ends_with(".HDR") || file.ends_with(".EXR");
+}
+
+}  // namespace
+
+void ViewerLoop::openDropped() {
+  for (const std::string& file : window_.takeDroppedFiles()) {
+    LoadRequest request = model_.loaded.request;
+    request.keepsCamera = isEnvironmentFile(file);
+    if (request.keepsCamera) {
+      request.environment = file;
+    } else {
+      request.source = file;
+      request.mirrors.clear();
+      request.noReflectors = false;
+    }
+    load(request);
+  }
+}
+
+void ViewerLoop::load(const LoadRequest& request) {
+  loader_.ask(request);
+  model_.isLoading = true;
+}
+
+void ViewerLoop::tell(const std::string& message, bool isError) {
+  model_.message = message;
+  model_.isError = isError;
+  messageTime_ = Clock::now();
+}
+
+void ViewerLoop::grantWishes() {
+  Wishes& wishes = model_.wishes;
+  if (wishes.close) window_.close();
+  if (wishes.load) load(*wishes.load);
+  if (wishes.viewChanged) {
+    ++view_;
+    lastChange_ = Clock::now();
+    model_.truth.reset();
+    if (cancelTruth_) *cancelTruth_ = true;
+  }
+  if (wishes.copyCommand && model_.loaded.scene) {
+    const std::string text = commandText();
+    window_.copyText(text);
+    options_.printLine(text);
+    tell("copied: " + text);
+  }
+  const bool screenshotWaits = wishes.screenshot && !isFrameSettled();
+  if (wishes.screenshot && !screenshotWaits) writeScreenshot();
+  wishes = Wishes{};
+  wishes.screenshot = screenshotWaits;
+}
+
+void ViewerLoop::writeScreenshot() {
+  std::string file;
+  for (int number = 1; file.empty() || std::filesystem::exists(file); ++number)
+    file = fmt::format("{}-{:04}.png", model_.loaded.scene->name, number);
+  try {
+    core::writeFileAtomically(
+        file, std::span<const std::byte>(core::encodePng(composeShownPicture(model_), commandText())));
+    options_.say("wrote " + file);
+    tell("wrote " + file);
+  } catch (const core::Error& error) {
+    tell(error.what(), true);
+  }
+}
+
+void ViewerLoop::askForFrame() {
+  if (!model_.loaded.scene || windowPx_.x == 0) return;
+  const bool isFirst = !model_.frame.frame;
+  const bool inFull = isFirst || isAtRest();
+  FrameRequest request;
+  request.scene = model_.loaded.scene;
+  request.camera = model_.view.camera;
+  request.options = model_.frameOptions(windowPx_);
+  request.exposure = model_.view.exposure;
+  request.view = view_;
+  request.scale = inFull ? 1.0 : moving_.scale();
+  request.options.withSeen = inFull;
+  request.options.widthPx = std::max(1, int(request.options.widthPx * request.scale));
+  request.options.heightPx = std::max(1, int(request.options.heightPx * request.scale));
+  if (asked_.view == request.view && asked_.options.withSeen == inFull) return;
+  if (!inFull && drawer_.isBusy()) return;  // the next one when this one is there, of the view as it is then
+  asked_ = request;
+  drawer_.ask(std::move(request));
+}
+
+void ViewerLoop::askForTruth() {
+  if (model_.view.comparison == Comparison::None || !isAtRest() || !isFrameSettled() || tracer_.isBusy())
+    return;
+  const int pass = model_.truthIsCurrent() ? model_.truth->pass + 1 : 0;
+  if (pass >= kTruthPasses) return;
+  cancelTruth_ = std::make_shared<std::atomic<bool>>(false);
+  tracer_.ask({model_.frame, cancelTruth_, pass});
+  model_.isTracing = true;
+}
+
+void ViewerLoop::askForMaps() {
+  if (!model_.view.mapsOf || mapper_.isBusy()) return;
+  const MapsRequest request{model_.loaded.scene, model_.view.camera.eye, *model_.view.mapsOf};
+  if (askedMaps_.scene == request.scene && askedMaps_.eye == request.eye &&
+      askedMaps_.reflector == request.reflector)
+    return;
+  askedMaps_ = request;
+  mapper_.ask(request);
+}
+
+}  // namespace catoptric::viewer
