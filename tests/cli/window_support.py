@@ -57,7 +57,7 @@ class Viewer:
         self.environment.pop("WAYLAND_DISPLAY", None)
         self.errors = tempfile.TemporaryFile()
         self.output = tempfile.TemporaryFile()
-        self.process = subprocess.Popen([support.CATOPTRIC, "view", *arguments, "--verbose"], cwd=folder,
+        self.process = subprocess.Popen([support.CATOPTRIC, "view", *arguments, "--verbose"], cwd=folder, stdin=subprocess.PIPE,
                                         env=self.environment, stdout=self.output, stderr=self.errors)
         self.window = None
 
@@ -75,11 +75,14 @@ class Viewer:
         return subprocess.run(["xdotool", *map(str, words)], env=self.environment, stdout=subprocess.PIPE,
                               stderr=subprocess.DEVNULL, check=False).stdout.decode()
 
+    def find_windows(self):
+        return self.do("search", "--onlyvisible", "--name", "catoptric").split()
+
     def wait_for_window(self):
         def find():
             if self.process.poll() is not None:
                 raise AssertionError(f"the viewer ended with {self.process.returncode}: {self.said()}")
-            return self.do("search", "--onlyvisible", "--name", "catoptric").split()
+            return self.find_windows()
         self.window = wait_for(find, "window")[-1]
         self.do("windowfocus", "--sync", self.window)
 
@@ -113,5 +116,6 @@ class Viewer:
         if self.process.poll() is None:
             self.process.kill()
             self.process.wait()
+        self.process.stdin.close()
         self.errors.close()
         self.output.close()
