@@ -40,8 +40,7 @@ constexpr double kLongestStep = 0.7;       // of the mesh's radius
 constexpr double kLongestMirroring = 0.5;  // of the distance eye - mirror: keeps Q' in front of the eye
 constexpr double kNearlySine = 0.05;       // a root this near is good enough to place a doubly virtual vertex
 constexpr double kOutsideTriangle = 1e-6;  // barycentric slack
-constexpr double kNearPredecessor = 0.02;  // squared angle between two vertices as seen from the mirror
-constexpr std::size_t kChunk = 512;
+constexpr std::size_t kChunk = 1024;
 
 bool isFinite(const dvec3& p) {
   return std::isfinite(p.x + p.y + p.z);
@@ -51,15 +50,11 @@ std::uint32_t heavierTriangle(const SeedPixel& seed, double nearWeight) {
   return nearWeight >= 0.5 ? seed.nearTriangle : seed.farTriangle;
 }
 
-VirtualVertex checked(const VirtualVertex& vertex) {
-  return isFinite(vertex.virtualPosition + vertex.position) ? vertex : VirtualVertex{};
-}
-
 }  // namespace
 
 VirtualObjectSolver::VirtualObjectSolver(const ReflectorMesh& mesh, const dvec3& eye, double farRadius,
                                          const SolverOptions& options)
-    : mesh_(&mesh), farRadius_(farRadius), options_(options) {
+    : mesh_(&mesh), farRadius_(farRadius), options_(options), laneTriangles_(makeLaneTriangles(mesh)) {
   for (ExplosionMap* map : {&nearMap_, &farMap_})
     map->ids = core::Image<std::uint32_t>(options.mapResolution, options.mapResolution, core::kNoId);
   const int hidden = options.hiddenMapResolution;
@@ -88,6 +83,9 @@ void VirtualObjectSolver::setEye(const dvec3& eye) {
     }
   });
   fillSeedMap(*mesh_, nearMap_, farMap_, seedMap_);
+  laneView_ = {vec3(eye - mesh_->centre()), vec3(hiddenMap_.frame.x),       vec3(hiddenMap_.frame.y),
+               vec3(hiddenMap_.frame.z),    vec2(hiddenMap_.lower),         vec2(hiddenMap_.pixelsPerUnit),
+               float(hiddenMap_.nearest),   float(hiddenMap_.squaredCosine)};
 }
 
 /// Where the ray to the point meets the triangle that hides the point from the eye; nothing if none does.
@@ -169,11 +167,11 @@ SurfacePoint VirtualObjectSolver::findSeed(const SeedPixel& seed, double nearWei
 }
 
 VirtualVertex VirtualObjectSolver::solveRefined(const dvec3& scenePoint, const SeedPixel& seed,
-                                                double nearWeight, const SurfacePoint* start) const {
+                                                double nearWeight) const {
   if (mesh_->isConvex())  // nothing behind a convex mirror is reflected: spare the search
     if (const auto hiding = findHidingPoint(scenePoint, true)) return mirrorHidden(*hiding, scenePoint);
   const SearchResult found =
-      searchReflectionPoint(mesh_->triangles(), start ? *start : findSeed(seed, nearWeight), eye_, scenePoint,
+      searchReflectionPoint(mesh_->triangles(), findSeed(seed, nearWeight), eye_, scenePoint,
                             options_.newtonSteps, options_.tolerance, kLongestStep * mesh_->radius());
   const MirrorLaw& law = found.law;
   const bool isPastBoundary =
@@ -196,26 +194,22 @@ VirtualVertex VirtualObjectSolver::solve(Solver solver, const dvec3& scenePoint)
   if (!canReflect_ || !isFinite(scenePoint)) return {};
   double nearWeight;
   const dvec2 coords = computeCoords(scenePoint, nearWeight);
-  return checked(solver == Solver::Explosion
-                     ? solveExplosion(scenePoint, coords, nearWeight)
-                     : solveRefined(scenePoint, seedMap_.at(coords), nearWeight, nullptr));
+  const VirtualVertex vertex = solver == Solver::Explosion
+                                   ? solveExplosion(scenePoint, coords, nearWeight)
+                                   : solveRefined(scenePoint, seedMap_.at(coords), nearWeight);
+  return vertex.checked();
 }
 
 /// Vertices in blocks, so that the block's fetches from the seed map and from the triangles, which are
-/// scattered over more memory than the cache holds, are under way while others are computed. On a convex
-/// mirror, where there is one root only, a vertex close to its predecessor starts from that one's reflection
-/// point.
-template <class Write>
-void VirtualObjectSolver::computeRefined(std::span<const vec3> scenePoints, const Write& write) const {
+/// scattered over more memory than the cache holds, are under way while others are computed.
+void VirtualObjectSolver::computeInOrder(const VertexSink& sink, std::size_t begin, std::size_t end) const {
   constexpr std::size_t kBlock = 32;
   const SeedPixel* seeds[kBlock];
   double weights[kBlock] = {};
-  VirtualVertex last;  // steps = 0: no reflection point
-  dvec3 lastPoint(0);
-  for (std::size_t first = 0; first < scenePoints.size(); first += kBlock) {
-    const std::size_t count = std::min(kBlock, scenePoints.size() - first);
+  for (std::size_t first = begin; first < end; first += kBlock) {
+    const std::size_t count = std::min(kBlock, end - first);
     for (std::size_t i = 0; i < count; ++i) {
-      const dvec3 point(scenePoints[first + i]);
+      const dvec3 point(sink.scenePoints[first + i]);
       seeds[i] = &seedMap_.at(isFinite(point) ? computeCoords(point, weights[i]) : dvec2(0));
       __builtin_prefetch(seeds[i]);
     }
@@ -225,15 +219,9 @@ void VirtualObjectSolver::computeRefined(std::span<const vec3> scenePoints, cons
       for (std::size_t line = 0; line < sizeof(MirrorTriangle); line += 64) __builtin_prefetch(record + line);
     }
     for (std::size_t i = 0; i < count; ++i) {
-      const dvec3 point(scenePoints[first + i]);
-      const dvec3 moved = point - lastPoint, away = point - last.position;
-      const bool isNear = last.steps > 0 && mesh_->isConvex() &&
-                          glm::dot(moved, moved) < kNearPredecessor * glm::dot(away, away);
-      last = isFinite(point)
-                 ? checked(solveRefined(point, *seeds[i], weights[i], isNear ? &last.at : nullptr))
-                 : VirtualVertex{};
-      lastPoint = point;
-      write(first + i, last);
+      const dvec3 point(sink.scenePoints[first + i]);
+      sink.write(first + i,
+                 isFinite(point) ? solveRefined(point, *seeds[i], weights[i]).checked() : VirtualVertex{});
     }
   }
 }
@@ -263,21 +251,17 @@ void VirtualObjectSolver::compute(Solver solver, std::span<const vec3> scenePoin
   assert(reflectionPoints.empty() || reflectionPoints.size() == scenePoints.size());
   // Chunks at fixed places: a vertex starts from its predecessor, and the result must not depend on the
   // threads.
+  const VertexSink sink{scenePoints, virtualPositions, kinds, reflectionPoints};
   const std::size_t chunks = (scenePoints.size() + kChunk - 1) / kChunk;
   core::parallelFor(chunks, 1, [&](std::size_t firstChunk, std::size_t endChunk) {
     for (std::size_t chunk = firstChunk; chunk < endChunk; ++chunk) {
-      const std::size_t begin = chunk * kChunk, count = std::min(kChunk, scenePoints.size() - begin);
-      const auto write = [&](std::size_t i, const VirtualVertex& vertex) {
-        const bool isUsable = vertex.kind != VertexKind::None;
-        virtualPositions[begin + i] = isUsable ? vec3(vertex.virtualPosition) : scenePoints[begin + i];
-        kinds[begin + i] = vertex.kind;
-        if (reflectionPoints.empty()) return;
-        reflectionPoints[begin + i] = isUsable ? vec3(vertex.position) : scenePoints[begin + i];
-      };
-      if (solver == Solver::Refined && canReflect_)
-        computeRefined(scenePoints.subspan(begin, count), write);
+      const std::size_t begin = chunk * kChunk, end = std::min(begin + kChunk, scenePoints.size());
+      if (solver != Solver::Refined || !canReflect_)
+        for (std::size_t i = begin; i < end; ++i) sink.write(i, solve(solver, dvec3(scenePoints[i])));
+      else if (mesh_->isConvex())  // one root only: a vertex may start from its predecessor
+        computeInLanes(sink, begin, end);
       else
-        for (std::size_t i = 0; i < count; ++i) write(i, solve(solver, dvec3(scenePoints[begin + i])));
+        computeInOrder(sink, begin, end);
     }
   });
 }

@@ -12,6 +12,7 @@
 // World space, double inside, float at the borders.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -21,6 +22,7 @@
 #include "catoptric/core/math.h"
 #include "catoptric/raster/virtual_triangles.h"
 #include "catoptric/virtual_object/explosion_map.h"
+#include "catoptric/virtual_object/mirror_law_lanes.h"
 #include "catoptric/virtual_object/reflection_point.h"
 #include "catoptric/virtual_object/reflector_mesh.h"
 
@@ -55,6 +57,31 @@ struct VirtualVertex {
   SurfacePoint at;
   int steps = 0;
   VertexKind kind = VertexKind::None;
+
+  /// Itself, or None where it is not finite.
+  [[nodiscard]] VirtualVertex checked() const {
+    const dvec3 sum = virtualPosition + position;
+    return std::isfinite(sum.x + sum.y + sum.z) ? *this : VirtualVertex{};
+  }
+};
+
+/// Where compute() puts its answers; all spans but the last have equal length, the last may be empty.
+struct VertexSink {
+  std::span<const vec3> scenePoints;
+  std::span<vec3> virtualPositions;
+  std::span<VertexKind> kinds;
+  std::span<vec3> reflectionPoints;
+
+  void write(std::size_t i, const vec3& virtualPosition, const vec3& position, VertexKind kind) const {
+    virtualPositions[i] = virtualPosition;
+    kinds[i] = kind;
+    if (!reflectionPoints.empty()) reflectionPoints[i] = position;
+  }
+  void write(std::size_t i, const VirtualVertex& vertex) const {
+    const bool isUsable = vertex.kind != VertexKind::None;
+    write(i, isUsable ? vec3(vertex.virtualPosition) : scenePoints[i],
+          isUsable ? vec3(vertex.position) : scenePoints[i], vertex.kind);
+  }
 };
 
 class VirtualObjectSolver {
@@ -68,8 +95,8 @@ class VirtualObjectSolver {
   void setEye(const dvec3& eye);
 
   /// All spans have equal length, except that `reflectionPoints` (J, wanted by selectVirtualTriangles()) may
-  /// be empty. Parallel; the result does not depend on the number of threads. Positions of None are left as
-  /// Q.
+  /// be empty. Parallel, and for convex mirrors in the processor's vectors; the result does not depend on the
+  /// number of threads. Positions of None are left as Q.
   void compute(Solver solver, std::span<const vec3> scenePoints, std::span<vec3> virtualPositions,
                std::span<VertexKind> kinds, std::span<vec3> reflectionPoints = {}) const;
 
@@ -90,10 +117,17 @@ class VirtualObjectSolver {
   [[nodiscard]] VirtualVertex solve(Solver solver, const dvec3& scenePoint) const;
   [[nodiscard]] VirtualVertex solveExplosion(const dvec3& scenePoint, const dvec2& coords,
                                              double nearWeight) const;
-  [[nodiscard]] VirtualVertex solveRefined(const dvec3& scenePoint, const SeedPixel& seed, double nearWeight,
-                                           const SurfacePoint* start) const;
-  template <class Write>
-  void computeRefined(std::span<const vec3> scenePoints, const Write& write) const;
+  [[nodiscard]] VirtualVertex solveRefined(const dvec3& scenePoint, const SeedPixel& seed,
+                                           double nearWeight) const;
+  struct LaneRun;
+  void computeInOrder(const VertexSink& sink, std::size_t begin, std::size_t end) const;
+  void computeInLanes(const VertexSink& sink, std::size_t begin, std::size_t end) const;
+  bool startLane(LaneRun& run, int lane, Lanes& lanes, const VertexSink& sink) const;
+  bool advanceLane(LaneRun& run, int lane, Lanes& lanes, const VertexSink& sink) const;
+  void solveAlone(LaneRun& run, const VertexSink& sink) const;
+  [[nodiscard]] bool jumpTo(LanePoint& at, const vec3& target) const;
+  [[nodiscard]] LanePoint findLaneSeed(const vec3& scenePoint) const;
+  [[nodiscard]] bool mayBeHidden(const vec3& local) const;
   [[nodiscard]] dvec2 computeCoords(const dvec3& scenePoint, double& nearWeight) const;
   [[nodiscard]] SurfacePoint findSeed(const SeedPixel& seed, double nearWeight) const;
   [[nodiscard]] std::optional<SurfacePoint> findHidingPoint(const dvec3& scenePoint, bool surely) const;
@@ -108,6 +142,8 @@ class VirtualObjectSolver {
   HiddenMap hiddenMap_;
   SeedMap seedMap_;
   ReflectedRays rays_;
+  std::vector<LaneTriangle> laneTriangles_;
+  LaneView laneView_;
   MapScratch scratch_[3];
 };
 

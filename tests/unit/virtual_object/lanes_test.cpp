@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// Eight vertices at once, in float, against one at a time, in double: the same law, the same reflection
+// points to a small part of a pixel, the same choice of what is reflected.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "catoptric/geometry/shapes.h"
+#include "catoptric/virtual_object/mirror_law_lanes.h"
+#include "catoptric/virtual_object/reflection_point.h"
+#include "catoptric/virtual_object/virtual_object_solver.h"
+#include "solver_test_support.h"
+
+namespace catoptric::virtual_object {
+namespace {
+
+/// Pixels of a picture in which the mirror is 700 wide, per radian at the eye.
+double pixelsPerRadian(const ReflectorMesh& mesh, const dvec3& eye) {
+  return 700 * glm::length(eye - mesh.centre()) / (2 * mesh.bodyRadius());
+}
+
+double angleBetween(const dvec3& a, const dvec3& b) {
+  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+TEST(Lanes, theLawAndItsDerivativesAreThoseOfTheDoubleSearch) {
+  const ReflectorMesh mesh = meshOf(geometry::makeUvSphere(0.5, 40, 20));
+  const std::vector<LaneTriangle> triangles = makeLaneTriangles(mesh);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> share(0.1, 0.4);
+  for (int round = 0; round < 200; ++round) {
+    const dvec3 eye = 2.0 * randomDirection(random);
+    Lanes lanes{};
+    std::array<std::uint32_t, kLanes> chosen;
+    std::array<dvec3, kLanes> points;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      chosen[lane] = std::uint32_t(random() % mesh.ordinaryCount());
+      points[lane] = 1.5 * randomDirection(random);
+      lanes.setTriangle(lane, triangles[chosen[lane]]);
+      lanes.setPoint(lane, vec3(points[lane] - mesh.centre()));
+      lanes.u[lane] = float(share(random)), lanes.v[lane] = float(share(random));
+    }
+    evaluateLanes(lanes, vec3(eye - mesh.centre()));
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const MirrorTriangle& t = mesh.triangles()[chosen[lane]];
+      const MirrorLaw law = evaluateMirrorLaw(t, lanes.u[lane], lanes.v[lane], eye, points[lane]);
+      if (glm::dot(law.h, law.h) < 0.01) continue;  // grazing: floats are not used there
+      EXPECT_NEAR(lanes.squaredSine[lane], law.squaredSine(), 1e-4);
+      EXPECT_NEAR(lanes.facing[lane], law.hn, 1e-5);
+      EXPECT_NEAR(lanes.distance[lane], law.distancePoint, 1e-5);
+      const dvec2 step = computeNewtonStep(t, law);
+      if (glm::length(step) > 100) continue;  // nearly singular
+      EXPECT_NEAR(lanes.stepU[lane], step.x, 1e-2 * glm::length(step) + 1e-3);
+      EXPECT_NEAR(lanes.stepV[lane], step.y, 1e-2 * glm::length(step) + 1e-3);
+    }
+  }
+}
+
+struct Difference {
+  double largestPx = 0;
+  int otherKind = 0, reflected = 0;
+};
+
+Difference compareWithDoubles(const ReflectorMesh& mesh, const dvec3& eye, double reach) {
+  EXPECT_TRUE(mesh.isConvex());
+  const VirtualObjectSolver solver(mesh, eye, 20.0);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<vec3> points;
+  dvec3 at(0);
+  for (int i = 0; i < 6000; ++i) {  // runs of neighbours, as vertices of objects are
+    if (i % 12 == 0)
+      at = mesh.centre() + mesh.radius() * (1.0 + reach * uniform(random)) * randomDirection(random);
+    at += 0.03 * mesh.radius() * randomDirection(random);
+    points.push_back(vec3(at));
+  }
+  std::vector<vec3> virtualPositions(points.size()), reflectionPoints(points.size());
+  std::vector<VertexKind> kinds(points.size());
+  solver.compute(Solver::Refined, points, virtualPositions, kinds, reflectionPoints);
+  Difference difference;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto alone = solver.findReflectionPoint(Solver::Refined, points[i]);
+    const VertexKind kind = alone ? alone->kind : VertexKind::None;
+    difference.otherKind += kind != kinds[i];
+    if (kind != VertexKind::Reflected || kinds[i] != kind) continue;
+    ++difference.reflected;
+    const double angle = angleBetween(dvec3(virtualPositions[i]) - eye, alone->virtualPosition - eye);
+    difference.largestPx = std::max(difference.largestPx, angle * pixelsPerRadian(mesh, eye));
+    EXPECT_NEAR(glm::length(dvec3(virtualPositions[i]) - eye), glm::length(alone->virtualPosition - eye),
+                1e-5 * glm::length(alone->virtualPosition - eye));
+    EXPECT_NEAR(glm::length(dvec3(reflectionPoints[i]) - alone->position), 0, 1e-4 * mesh.radius());
+  }
+  return difference;
+}
+
+TEST(Lanes, findTheSameReflectionPointsToASmallPartOfAPixel) {
+  const struct {
+    const char* name;
+    geometry::Mesh mesh;
+    dvec3 eye;
+    double reach;
+  } cases[] = {{"sphere", geometry::makeIcosphere(0.5, 24), {0.4, 0.9, 2.6}, 6},
+               {"coarse sphere", geometry::makeIcosphere(0.5, 5), {0.4, 0.9, 2.6}, 6},
+               {"cylinder", geometry::makeCylinderSide(0.3, 1.6, 96, 12, false), {0.4, 0.9, 2.6}, 3},
+               {"far away",
+                geometry::transformed(geometry::makeIcosphere(0.5, 12), geometry::moveBy({200, 0, 90})),
+                {202, 1, 91},
+                40}};
+  for (const auto& c : cases) {
+    const Difference difference = compareWithDoubles(meshOf(c.mesh), c.eye, c.reach);
+    EXPECT_GT(difference.reflected, 1000) << c.name;
+    // 0.05 px: a tenth of the default --max-error. A point at the very edge of the mirror may fall to either
+    // side.
+    EXPECT_LT(difference.largestPx, 0.05) << c.name;
+    EXPECT_LE(difference.otherKind, 6) << c.name;
+  }
+}
+
+TEST(Lanes, nothingFiniteComesOfNothing) {
+  const ReflectorMesh mesh = meshOf(geometry::makeIcosphere(0.5, 8));
+  const VirtualObjectSolver solver(mesh, {0, 1, 2}, 6.0);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  std::vector<vec3> points(37, vec3(nan, 0, 0)), out(points.size());
+  points[20] = {1, 1, 1};
+  std::vector<VertexKind> kinds(points.size(), VertexKind::Reflected);
+  solver.compute(Solver::Refined, points, out, kinds);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    EXPECT_EQ(kinds[i], i == 20 ? VertexKind::Reflected : VertexKind::None) << i;
+  solver.compute(Solver::Refined, {}, {}, {});
+}
+
+}  // namespace
+}  // namespace catoptric::virtual_object
