@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a material's textures at a fragment. The block mirrors raster/scene_buffers.cpp: MaterialBlock.
+// Reads a material's textures at a fragment. TEXTURES, set by the host, says in its bits which of the five there are. The block mirrors raster/scene_buffers.cpp: MaterialBlock.
 
 layout(std140) uniform Material {
   vec4 m_baseColor;
@@ -15,7 +15,12 @@ uniform sampler2D u_normalMap;
 uniform sampler2D u_occlusion;
 uniform sampler2D u_emissive;
 
-bool hasTexture(int slot) { return m_uvRows[2 * slot + 1].w >= 0.0f; }
+#ifndef TEXTURES
+#define TEXTURES 31
+#endif
+
+/// A constant: software rasterizers run both sides of an `if`, so that absent textures would be read like others.
+bool hasTexture(int slot) { return ((TEXTURES >> slot) & 1) != 0; }
 
 vec2 slotUv(int slot, vec2 uv0, vec2 uv1) {
   vec2 uv = m_uvRows[2 * slot].w > 0.5f ? uv1 : uv0;

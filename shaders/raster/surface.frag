@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shades a fragment of the scene in world space, seen directly (level 0) or as a virtual object through a chain of
 // mirrors (level > 0), and stores what the next level needs.
-// Defines: OVERLAY = blended surfaces; only premultiplied colour is written.
+// Defines: OVERLAY = blended surfaces; only premultiplied colour is written. TEXTURES: see raster/material.glsl.
 
 #include "lib/brdf.glsl"
 #include "lib/environment.glsl"

@@ -161,6 +161,13 @@ void SceneBuffers::bindLights(gl::Program& program) const {
   program.set("u_lights[0]", packed);
 }
 
+unsigned SceneBuffers::textureBits(int material) const {
+  const std::size_t index = material < 0 ? materials_.size() - 1 : std::size_t(material);
+  unsigned bits = 0;
+  for (unsigned unit = 0; unit < 5; ++unit) bits |= slots_[index][unit] ? 1u << unit : 0u;
+  return bits;
+}
+
 void SceneBuffers::bindMaterial(int material) const {
   const std::size_t index = material < 0 ? materials_.size() - 1 : std::size_t(material);
   materialBlocks_.bindRange(0, index * blockStride_, sizeof(MaterialBlock));

@@ -38,6 +38,8 @@ class SceneBuffers {
   void bindEnvironment(gl::Program& program) const;
   void bindLights(gl::Program& program) const;
   void bindMaterial(int material) const;
+  /// Bit k: the material has its k-th texture (order of Unit).
+  [[nodiscard]] unsigned textureBits(int material) const;
 
   [[nodiscard]] const scene::Material& material(int index) const;
   [[nodiscard]] const scene::WorldGeometry& geometry() const { return geometry_; }

@@ -2,36 +2,15 @@
 #include "catoptric/raster/surface_pass.h"
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 namespace catoptric::raster {
 
-SurfacePass::SurfacePass()
-    : opaque_("raster/surface.vert", "raster/surface.frag"),
-      blended_("raster/surface.vert", "raster/surface.frag", {"OVERLAY"}) {
-  opaque_.bindBlock("Material", 0);
-  blended_.bindBlock("Material", 0);
-}
+namespace {
 
-void SurfacePass::draw(const SceneBuffers& scene, const VertexStreams& streams,
-                       std::span<const DrawRange> ranges, const SurfaceView& view, const Level& target) {
-  target.surfaces.bind();
-  if (view.chain) gl::setScissor(view.chain->bounds);
-  drawRanges(opaque_, scene, streams, ranges, view, false);
-}
-
-void SurfacePass::drawBlended(const SceneBuffers& scene, const VertexStreams& streams,
-                              std::span<const DrawRange> ranges, const SurfaceView& view, Level& target) {
-  if (ranges.empty()) return;
-  target.overlays.bind();
-  if (!target.hasOverlay) target.overlays.clearColor(0, vec4(0.0f));
-  target.hasOverlay = true;
-  if (view.chain) gl::setScissor(view.chain->bounds);
-  drawRanges(blended_, scene, streams, ranges, view, true);
-}
-
-void SurfacePass::drawRanges(gl::Program& program, const SceneBuffers& scene, const VertexStreams& streams,
-                             std::span<const DrawRange> ranges, const SurfaceView& view, bool blended) {
-  const scene::WorldGeometry& world = scene.geometry();
+/// What all parts that a program draws in one go share.
+void setView(gl::Program& program, const SceneBuffers& scene, const SurfaceView& view) {
   program.use();
   scene.bindEnvironment(program);
   scene.bindLights(program);
@@ -48,6 +27,42 @@ void SurfacePass::drawRanges(gl::Program& program, const SceneBuffers& scene, co
   program.set("u_parentIds", int(kUnitFirstFree) + 3);
   if (view.parent) view.parent->bindAsParent(program);
   program.set("u_parentWord", view.chain ? view.chain->parentWord() : 0u);
+}
+
+}  // namespace
+
+gl::Program& SurfacePass::findProgram(unsigned textureBits, bool blended) {
+  std::unique_ptr<gl::Program>& program = (blended ? blended_ : opaque_)[textureBits];
+  if (!program) {
+    std::vector<std::string> defines{"TEXTURES " + std::to_string(textureBits)};
+    if (blended) defines.emplace_back("OVERLAY");
+    program = std::make_unique<gl::Program>("raster/surface.vert", "raster/surface.frag", defines);
+    program->bindBlock("Material", 0);
+  }
+  return *program;
+}
+
+void SurfacePass::draw(const SceneBuffers& scene, const VertexStreams& streams,
+                       std::span<const DrawRange> ranges, const SurfaceView& view, const Level& target) {
+  target.surfaces.bind();
+  if (view.chain) gl::setScissor(view.chain->bounds);
+  drawRanges(scene, streams, ranges, view, false);
+}
+
+void SurfacePass::drawBlended(const SceneBuffers& scene, const VertexStreams& streams,
+                              std::span<const DrawRange> ranges, const SurfaceView& view, Level& target) {
+  if (ranges.empty()) return;
+  target.overlays.bind();
+  if (!target.hasOverlay) target.overlays.clearColor(0, vec4(0.0f));
+  target.hasOverlay = true;
+  if (view.chain) gl::setScissor(view.chain->bounds);
+  drawRanges(scene, streams, ranges, view, true);
+}
+
+void SurfacePass::drawRanges(const SceneBuffers& scene, const VertexStreams& streams,
+                             std::span<const DrawRange> ranges, const SurfaceView& view, bool blended) {
+  const scene::WorldGeometry& world = scene.geometry();
+  std::uint32_t prepared = 0;  // bit k: the program for textures k knows this view
   streams.bind();
   const std::uint32_t chainWord = view.chain ? view.chain->id << 16 : 0u;
   for (const DrawRange& range : ranges) {
@@ -55,6 +70,13 @@ void SurfacePass::drawRanges(gl::Program& program, const SceneBuffers& scene, co
     if (range.indexCount == 0 || (part.reflector != core::kNoId && part.reflector == view.excludedReflector))
       continue;
     const scene::Material& material = scene.material(part.material);
+    const unsigned textures = scene.textureBits(part.material);
+    gl::Program& program = findProgram(textures, blended);
+    if ((prepared >> textures & 1u) == 0)
+      setView(program, scene, view);
+    else
+      program.use();
+    prepared |= 1u << textures;
     const bool isReflector = part.reflector != core::kNoId;
     program.set("u_objectWord", (part.object + 1u) | (part.shell ? 0x80000000u : 0u));
     program.set("u_reflectorWord", (isReflector ? part.reflector + 1u : 0u) | chainWord);

@@ -2,6 +2,8 @@
 // Draws surfaces of the scene, seen directly or through a chain of mirrors, into a level.
 #pragma once
 
+#include <array>
+#include <memory>
 #include <span>
 
 #include "catoptric/gl/program.h"
@@ -26,8 +28,6 @@ struct SurfaceView {
 
 class SurfacePass {
  public:
-  SurfacePass();
-
   /// Opaque and masked parts.
   void draw(const SceneBuffers& scene, const VertexStreams& streams, std::span<const DrawRange> ranges,
             const SurfaceView& view, const Level& target);
@@ -36,10 +36,15 @@ class SurfacePass {
                    const SurfaceView& view, Level& target);
 
  private:
-  void drawRanges(gl::Program& program, const SceneBuffers& scene, const VertexStreams& streams,
-                  std::span<const DrawRange> ranges, const SurfaceView& view, bool blended);
+  /// A program for each set of textures that a material has (bits of SceneBuffers::textureBits()), made when
+  /// it is first used.
+  using Programs = std::array<std::unique_ptr<gl::Program>, 32>;
 
-  gl::Program opaque_, blended_;
+  void drawRanges(const SceneBuffers& scene, const VertexStreams& streams, std::span<const DrawRange> ranges,
+                  const SurfaceView& view, bool blended);
+  [[nodiscard]] gl::Program& findProgram(unsigned textureBits, bool blended);
+
+  Programs opaque_, blended_;
 };
 
 /// Orders the triangles of `ranges` from far to near, as seen from `eye`, and packs them into new ranges over
