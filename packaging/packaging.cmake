@@ -82,7 +82,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
 set(CPACK_DEBIAN_TOOL_PACKAGE_NAME catoptric)
-set(CPACK_DEBIAN_TOOL_PACKAGE_RECOMMENDS libgl1-mesa-dri)
+set(CPACK_DEBIAN_TOOL_PACKAGE_RECOMMENDS "libgl1-mesa-dri, libglfw3")
 set(CPACK_DEBIAN_TOOL_DESCRIPTION "True reflections in curved mirrors with a rasterizer (command)
  Opens a glTF scene, finds the mirrors in it, draws their reflections without ray tracing and
  tells how far each picture is from ray-traced truth, in pixels.")

@@ -9,6 +9,8 @@
 namespace catoptric::viewer {
 namespace {
 
+constexpr float kMapEdge = 200, kMapsWidth = 3 * kMapEdge + 50;  // three maps, gaps, borders
+
 const char* shapeName(const scene::Reflector& reflector) {
   switch (reflector.shape) {
     case scene::ReflectorShape::Plane:
@@ -70,7 +72,8 @@ void drawReflectorRow(Model& model, const scene::Reflector& reflector) {
 void drawMap(const char* title, const ShownPicture& picture) {
   ImGui::BeginGroup();
   ImGui::TextUnformatted(title);
-  if (!picture.isEmpty()) ImGui::Image(picture.imguiId(), ImVec2(200, 200), ImVec2(0, 1), ImVec2(1, 0));
+  if (!picture.isEmpty())
+    ImGui::Image(picture.imguiId(), ImVec2(kMapEdge, kMapEdge), ImVec2(0, 1), ImVec2(1, 0));
   ImGui::EndGroup();
 }
 
@@ -93,8 +96,9 @@ void drawReflectors(Model& model) {
 void drawMaps(Model& model, const MapPictures& maps) {
   if (!model.view.mapsOf) return;
   bool isShown = true;
-  ImGui::SetNextWindowPos(ImVec2(ImGui::GetIO().DisplaySize.x - 10, 10), ImGuiCond_FirstUseEver,
-                          ImVec2(1, 0));
+  // At the right edge, but whole: ImGui does not know its size yet.
+  ImGui::SetNextWindowPos(ImVec2(std::max(10.0f, ImGui::GetIO().DisplaySize.x - kMapsWidth), 10),
+                          ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowBgAlpha(0.9f);
   if (ImGui::Begin("explosion maps", &isShown,
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
