@@ -29,6 +29,8 @@ std::string shapeName(scene::ReflectorShape shape) {
       return "cylinder";
     case scene::ReflectorShape::Cone:
       return "cone";
+    case scene::ReflectorShape::Extrusion:
+      return "extrusion";
     case scene::ReflectorShape::Mesh:
       return "mesh";
   }
@@ -56,6 +58,7 @@ Json describeReflector(const LoadedScene& loaded, const scene::Reflector& reflec
           {"area", reflector.areaWorld},
           {"material", hasMaterial ? loaded.scene.materials[std::size_t(reflector.material)].name : ""},
           {"reason", reflector.reason},
+          {"analytic", {{"supported", choice.analytic.empty()}, {"reason", choice.analytic}}},
           {"auto",
            {{"method", std::string(renderer::methodName(choice.method))},
             {"solver", std::string(renderer::solverName(choice.solver))},
@@ -130,6 +133,11 @@ std::string makeReflectorTable(const LoadedScene& loaded) {
                     methodText(choice)});
     reasons += fmt::format("{}: a mirror by {}; {} because {}\n", withoutControlCharacters(reflector.name),
                            reflector.reason, methodText(choice), choice.reason);
+    if (reflector.shape == scene::ReflectorShape::Plane) continue;
+    reasons += choice.analytic.empty()
+                   ? fmt::format("  solver analytic: the {} that its vertices leave by at most {:.2g} m\n",
+                                 shapeName(reflector.shape), reflector.fitError)
+                   : fmt::format("  solver analytic: not possible, {}; refined is used\n", choice.analytic);
   }
   return "\n" + formatTable(rows, usesColour(stdout)) + "\n" + reasons;
 }

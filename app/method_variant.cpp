@@ -52,8 +52,12 @@ const std::vector<MethodVariant>& methodVariants() {
        true},
       {"virtual-explosion", "virtual objects, explosion maps as published", Method::Virtual,
        Solver::Explosion, true},
+      {"virtual-layered", "virtual objects, explosion maps at eight radii", Method::Virtual, Solver::Layered,
+       true},
       {"virtual-refined", "virtual objects, reflection points polished", Method::Virtual, Solver::Refined,
        true},
+      {"virtual-analytic", "virtual objects, closed forms where the shape is known", Method::Virtual,
+       Solver::Analytic, true},
       {"raytrace", "ray-traced truth", Method::RayTrace, Solver::Auto, true}};
   return variants;
 }

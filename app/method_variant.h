@@ -23,7 +23,8 @@ struct MethodVariant {
   bool boxCorrected = true;
 };
 
-/// Slowest-looking last: none, environment-plain, environment, virtual-explosion, virtual-refined, raytrace.
+/// Slowest-looking last: none, environment-plain, environment, virtual-explosion, virtual-layered,
+/// virtual-refined, virtual-analytic, raytrace.
 [[nodiscard]] const std::vector<MethodVariant>& methodVariants();
 
 /// --methods A,B,C. Throws UsageError for a name that is not there or is there twice.

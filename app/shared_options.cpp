@@ -19,11 +19,12 @@ constexpr int kMostBounces = 16, kMostSamples = 1024, kMostThreads = 1024;
 const std::vector<renderer::Method> kMethods{renderer::Method::Auto, renderer::Method::None,
                                              renderer::Method::Environment, renderer::Method::Virtual,
                                              renderer::Method::RayTrace};
-const std::vector<renderer::Solver> kSolvers{renderer::Solver::Auto, renderer::Solver::Explosion,
-                                             renderer::Solver::Refined};
+const std::vector<renderer::Solver> kSolvers{renderer::Solver::Auto,     renderer::Solver::Explosion,
+                                             renderer::Solver::Layered,  renderer::Solver::Refined,
+                                             renderer::Solver::Analytic, renderer::Solver::Subdivision};
 // Words that are planned (docs/methods.md); they get an answer of their own.
 const std::vector<std::string> kPlannedMethods{"morphing", "zexel"};
-const std::vector<std::string> kPlannedSolvers{"layered", "exact", "analytic", "subdivision"};
+const std::vector<std::string> kPlannedSolvers{"exact"};
 
 /// The value whose name was typed.
 template <class Value>
@@ -130,11 +131,12 @@ void declareMethod(Arguments& arguments, renderer::FrameOptions& options, bool& 
                      options.method =
                          choose("--method", text, kMethods, renderer::methodName, kPlannedMethods);
                    });
-  arguments.option("--solver", "NAME", "Of the virtual method: auto (default), explosion, refined",
-                   [&](const std::string& text) {
-                     options.solver =
-                         choose("--solver", text, kSolvers, renderer::solverName, kPlannedSolvers);
-                   });
+  arguments.option(
+      "--solver", "NAME",
+      "Of the virtual method: auto (default), explosion, layered, refined, analytic, subdivision",
+      [&](const std::string& text) {
+        options.solver = choose("--solver", text, kSolvers, renderer::solverName, kPlannedSolvers);
+      });
   arguments.flag("--plain-environment-map", "No parallax correction by the box of the room", plainMap);
 }
 

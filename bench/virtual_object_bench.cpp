@@ -9,6 +9,7 @@
 #include "catoptric/geometry/shapes.h"
 #include "catoptric/raster/tessellation.h"
 #include "catoptric/raster/virtual_triangles.h"
+#include "catoptric/virtual_object/make_point_finder.h"
 #include "catoptric/virtual_object/virtual_object_solver.h"
 
 namespace {
@@ -32,10 +33,15 @@ void appendPart(scene::WorldGeometry& g, const geometry::Mesh& mesh, std::uint32
   g.parts.push_back(part);
 }
 
-scene::WorldGeometry makeWorld(const geometry::Mesh& mirror) {
+scene::WorldGeometry makeWorld(const geometry::Mesh& mirror, scene::ReflectorShape shape) {
   scene::WorldGeometry g;
   g.reflectors.emplace_back();
   g.reflectors[0].name = "mirror";
+  g.reflectors[0].shape = shape;
+  core::Box box;
+  for (const vec3& p : mirror.positions) box.add(dvec3(p));
+  g.reflectors[0].centre = box.centre();
+  g.reflectors[0].radius = box.radius();
   appendPart(g, mirror, 0);
   appendPart(g, geometry::transformed(geometry::makeBox({8, 3, 8}), geometry::moveBy({0, 1.5, 0})),
              core::kNoId);
@@ -47,8 +53,8 @@ scene::WorldGeometry makeWorld(const geometry::Mesh& mirror) {
 }
 
 struct Bench {
-  explicit Bench(const geometry::Mesh& mirror)
-      : world(makeWorld(mirror)),
+  Bench(const geometry::Mesh& mirror, scene::ReflectorShape shape)
+      : world(makeWorld(mirror, shape)),
         mesh(world, 0),
         solver(mesh, eye, 7.0),
         objects(tessellateForReflector(world, 0)) {
@@ -68,23 +74,27 @@ struct Bench {
 Bench& getBench(std::int64_t which) {
   static const std::unique_ptr<Bench> benches[2] = {
       std::make_unique<Bench>(
-          geometry::transformed(geometry::makeIcosphere(0.5, 24), geometry::moveBy({0, 0.5, 0}))),
+          geometry::transformed(geometry::makeIcosphere(0.5, 24), geometry::moveBy({0, 0.5, 0})),
+          scene::ReflectorShape::Sphere),
       std::make_unique<Bench>(geometry::transformed(geometry::makeCylinderSide(0.3, 1.6, 96, 12, false),
-                                                    geometry::moveBy({0, 0.8, 0})))};
+                                                    geometry::moveBy({0, 0.8, 0})),
+                              scene::ReflectorShape::Cylinder)};
   return *benches[which];
 }
 
 void virtualVertices(benchmark::State& state) {
   Bench& b = getBench(state.range(0));
-  const Solver solver = state.range(1) == 0 ? Solver::Explosion : Solver::Refined;
+  const auto solver = Solver(state.range(1));
+  b.solver.useFinder(makePointFinder(solver, b.world, 0, false, b.mesh));
   for (auto _ : state) b.solver.compute(solver, b.objects.positions, b.positions, b.kinds, b.points);
   state.counters["vertices/s"] = benchmark::Counter(double(b.positions.size()) * double(state.iterations()),
                                                     benchmark::Counter::kIsRate);
   state.counters["vertices"] = double(b.positions.size());
+  b.solver.useFinder(nullptr);
 }
 BENCHMARK(virtualVertices)
-    ->ArgNames({"cylinder", "refined"})
-    ->ArgsProduct({{0, 1}, {0, 1}})
+    ->ArgNames({"cylinder", "solver"})  // explosion, refined, analytic, layered, subdivision
+    ->ArgsProduct({{0, 1}, {0, 1, 2, 3, 4}})
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 

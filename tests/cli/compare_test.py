@@ -8,7 +8,8 @@ import unittest
 
 import support
 
-ALL = ["none", "environment-plain", "environment", "virtual-explosion", "virtual-refined", "raytrace"]
+ALL = ["none", "environment-plain", "environment", "virtual-explosion", "virtual-layered",
+       "virtual-refined", "virtual-analytic", "raytrace"]
 QUICK = ("--size", "96x72", "--repeat", "1")
 
 

@@ -25,7 +25,7 @@ namespace catoptric::renderer {
 /// How reflections are made. None: mirrors show the environment only, as they do after the last bounce.
 enum class Method { Auto, None, Environment, Virtual, RayTrace };
 /// How the Virtual method finds reflection points on curved mirrors.
-enum class Solver { Auto, Explosion, Refined };
+enum class Solver { Auto, Explosion, Layered, Refined, Analytic, Subdivision };
 
 /// Names as on the command line.
 [[nodiscard]] std::string_view methodName(Method method);
@@ -72,6 +72,7 @@ struct MethodChoice {
   Method method = Method::Virtual;
   Solver solver = Solver::Refined;
   std::string reason;
+  std::string analytic;  ///< why solver Analytic cannot serve it; empty where it can
 };
 
 /// Owns the GL context (made on first need) and all buffers of one scene. Not thread-safe.

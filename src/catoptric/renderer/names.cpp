@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "catoptric/renderer/frame.h"
+#include "catoptric/virtual_object/analytic_finder.h"
 
 namespace catoptric::renderer {
 
@@ -25,19 +26,36 @@ std::string_view solverName(Solver solver) {
       return "auto";
     case Solver::Explosion:
       return "explosion";
+    case Solver::Layered:
+      return "layered";
     case Solver::Refined:
       return "refined";
+    case Solver::Analytic:
+      return "analytic";
+    case Solver::Subdivision:
+      return "subdivision";
   }
   return "?";
 }
 
-MethodChoice Renderer::chooseMethod(const scene::Reflector& reflector) {
+namespace {
+
+MethodChoice chooseByShape(const scene::Reflector& reflector) {
   if (reflector.shape == scene::ReflectorShape::Plane)
-    return {Method::Virtual, Solver::Auto, "flat: the scene is mirrored, exact at every pixel"};
+    return {Method::Virtual, Solver::Auto, "flat: the scene is mirrored, exact at every pixel", {}};
   if (reflector.isConvex)
-    return {Method::Virtual, Solver::Refined, "convex: one reflection point for every scene point"};
-  return {Method::Virtual, Solver::Refined,
-          "not convex: drawn as one piece, right where a point has one reflection only"};
+    return {Method::Virtual, Solver::Refined, "convex: one reflection point for every scene point", {}};
+  return {Method::Virtual,
+          Solver::Refined,
+          "not convex: drawn as one piece, right where a point has one reflection only",
+          {}};
 }
 
+}  // namespace
+
+MethodChoice Renderer::chooseMethod(const scene::Reflector& reflector) {
+  MethodChoice choice = chooseByShape(reflector);
+  choice.analytic = virtual_object::findAnalyticObstacle(reflector);
+  return choice;
+}
 }  // namespace catoptric::renderer

@@ -23,6 +23,21 @@ double millisecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
+virtual_object::Solver virtualObjectSolver(Solver solver) {
+  switch (solver) {
+    case Solver::Explosion:
+      return virtual_object::Solver::Explosion;
+    case Solver::Layered:
+      return virtual_object::Solver::Layered;
+    case Solver::Analytic:
+      return virtual_object::Solver::Analytic;
+    case Solver::Subdivision:
+      return virtual_object::Solver::Subdivision;
+    default:
+      return virtual_object::Solver::Refined;
+  }
+}
+
 /// Rows are stored bottom first on the GPU, top first in an Image.
 template <class Pixel, class Write>
 void forFlippedRows(const std::vector<Pixel>& pixels, int width, int height, const Write& write) {
@@ -223,8 +238,7 @@ Frame RasterFrame::render(const scene::CameraFrame& camera, const FrameOptions& 
   Frame frame;
   const int samples = std::max(1, options.samples);
   prepareLevels(1, options.widthPx, options.heightPx);
-  virtual_.setSolver(options.solver == Solver::Explosion ? virtual_object::Solver::Explosion
-                                                         : virtual_object::Solver::Refined);
+  virtual_.setSolver(virtualObjectSolver(options.solver));
   environment_.setOptions(options.environmentMapSize, options.boxCorrected);
   frame.radiance = core::ImageRgbaF(options.widthPx, options.heightPx, vec4(0, 0, 0, 1));
   const raster::Level& level = *levels_[0];

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "catoptric/core/log.h"
+#include "catoptric/geometry/extrusion.h"
 #include "catoptric/geometry/mesh_measures.h"
 #include "catoptric/geometry/vertex_weld.h"
 
@@ -115,9 +116,11 @@ std::optional<ReflectorShape> parseShape(const std::optional<std::string>& name)
   if (*name == "sphere") return ReflectorShape::Sphere;
   if (*name == "cylinder") return ReflectorShape::Cylinder;
   if (*name == "cone") return ReflectorShape::Cone;
+  if (*name == "extrusion") return ReflectorShape::Extrusion;
   if (*name == "mesh") return ReflectorShape::Mesh;
-  core::logWarningOnce("extras.catoptric.shape \"" + *name +
-                       "\" is none of plane, sphere, cylinder, cone, mesh; the shape is recognised instead");
+  core::logWarningOnce(
+      "extras.catoptric.shape \"" + *name +
+      "\" is none of plane, sphere, cylinder, cone, extrusion, mesh; the shape is recognised instead");
   return std::nullopt;
 }
 
@@ -145,6 +148,9 @@ std::optional<Candidate> fitShape(ReflectorShape shape, const geometry::MeshView
     case ReflectorShape::Cone:
       if (const auto fit = geometry::fitCone(mesh))
         return Candidate{shape, fit->deviation, {}, fit->isInside};
+      break;
+    case ReflectorShape::Extrusion:
+      if (const auto fit = geometry::fitExtrusion(mesh)) return Candidate{shape, fit->deviation, {}, false};
       break;
     case ReflectorShape::Mesh:
       break;
@@ -224,8 +230,8 @@ void measureReflector(Reflector& reflector, const geometry::MeshView& mesh,
     core::logWarningOnce(
         fmt::format("\"{}\": no {} fits, declared shape ignored", reflector.name, *declaredShape));
   }
-  for (const ReflectorShape shape :
-       {ReflectorShape::Plane, ReflectorShape::Sphere, ReflectorShape::Cylinder, ReflectorShape::Cone}) {
+  for (const ReflectorShape shape : {ReflectorShape::Plane, ReflectorShape::Sphere, ReflectorShape::Cylinder,
+                                     ReflectorShape::Cone, ReflectorShape::Extrusion}) {
     if (shape == ReflectorShape::Plane && hasNormalMap) continue;
     const double angleLimit =
         shape == ReflectorShape::Plane ? options.normalTolerance : kCurvedNormalTolerance;
@@ -233,8 +239,8 @@ void measureReflector(Reflector& reflector, const geometry::MeshView& mesh,
     if (!fit || fit->deviation.distance > distanceLimit || fit->deviation.angleRadians > angleLimit) continue;
     accept(*fit);
     // The outside of a recognised shape is convex, whatever rounding does to the slivers at a sphere's poles.
-    if (shape != ReflectorShape::Plane && !fit->isInside && frontsFollowNormals(mesh))
-      reflector.isConvex = true;
+    const bool isRound = shape != ReflectorShape::Plane && shape != ReflectorShape::Extrusion;
+    if (isRound && !fit->isInside && frontsFollowNormals(mesh)) reflector.isConvex = true;
     return;
   }
 }

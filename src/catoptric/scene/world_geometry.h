@@ -15,7 +15,7 @@
 namespace catoptric::scene {
 
 /// How a reflector is treated. `Plane` is a planar mirror; everything else goes by its mesh.
-enum class ReflectorShape : std::uint8_t { Plane, Sphere, Cylinder, Cone, Mesh };
+enum class ReflectorShape : std::uint8_t { Plane, Sphere, Cylinder, Cone, Extrusion, Mesh };
 
 /// A mirror surface: one flat facet, or one smoothly connected curved piece of an instance.
 struct Reflector {

@@ -5,11 +5,14 @@
 
 #include <chrono>
 
+#include "catoptric/virtual_object/make_point_finder.h"
+
 namespace catoptric::virtual_object {
 
 VirtualObjectMethod::Prepared::Prepared(const scene::WorldGeometry& world, std::uint32_t reflector,
                                         bool flipped, double maxError)
     : maxErrorPx(maxError),
+      isFromBehind(flipped),
       mesh(world, reflector, ReflectorMeshOptions{.flipped = flipped}),
       objects(raster::tessellateForReflector(world, reflector,
                                              raster::TessellationOptions{.maxErrorPx = maxError})),
@@ -41,6 +44,17 @@ VirtualObjectMethod::Prepared& VirtualObjectMethod::prepareReflector(const raste
   return *slot;
 }
 
+Solver VirtualObjectMethod::equipSolver(const scene::WorldGeometry& world, std::uint32_t reflector,
+                                        Prepared& prepared) const {
+  if (solver_ == Solver::Explosion || solver_ == Solver::Refined) return solver_;
+  if (prepared.finderOf != solver_) {
+    prepared.finderOf = solver_;
+    prepared.solver->useFinder(
+        makePointFinder(solver_, world, reflector, prepared.isFromBehind, prepared.mesh));
+  }
+  return prepared.solver->hasFinder() ? solver_ : Solver::Refined;
+}
+
 void VirtualObjectMethod::computeVirtualVertices(raster::FrameContext& frame, const raster::Chain& chain,
                                                  const dvec3& drawEye, Prepared& prepared) const {
   const auto start = std::chrono::steady_clock::now();
@@ -58,7 +72,8 @@ void VirtualObjectMethod::computeVirtualVertices(raster::FrameContext& frame, co
       prepared.scenePoints[i] = vec3(dvec3(chain.drawFromWorld * dvec4(dvec3(points[i]), 1.0)));
     points = prepared.scenePoints;
   }
-  prepared.solver->compute(solver_, points, prepared.virtualPositions, prepared.kinds,
+  const Solver solver = equipSolver(frame.scene.geometry(), *chain.curved, prepared);
+  prepared.solver->compute(solver, points, prepared.virtualPositions, prepared.kinds,
                            prepared.reflectionPoints);
   const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
   frame.counters.virtualVertices += points.size();

@@ -33,11 +33,13 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   struct Prepared {
     Prepared(const scene::WorldGeometry& world, std::uint32_t reflector, bool flipped, double maxErrorPx);
     double maxErrorPx;
+    bool isFromBehind;  ///< the eye is behind a double-sided mirror
     ReflectorMesh mesh;
     raster::TessellatedObjects objects;
     raster::VertexStreams streams, blendedStreams;
     std::unique_ptr<VirtualObjectSolver> solver;
-    std::vector<vec3> scenePoints;  ///< vertices mirrored by the planar links behind the curved one
+    Solver finderOf = Solver::Refined;  ///< whose finder the solver was given
+    std::vector<vec3> scenePoints;      ///< vertices mirrored by the planar links behind the curved one
     std::vector<vec3> virtualPositions, reflectionPoints;
     std::vector<VertexKind> kinds;
     raster::VirtualTriangles triangles;
@@ -48,6 +50,10 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
                              const dvec3& drawEye);
   void computeVirtualVertices(raster::FrameContext& frame, const raster::Chain& chain, const dvec3& drawEye,
                               Prepared& prepared) const;
+
+  /// Gives the solver what the wanted one asks; Refined where that cannot serve the mirror.
+  [[nodiscard]] Solver equipSolver(const scene::WorldGeometry& world, std::uint32_t reflector,
+                                   Prepared& prepared) const;
 
   Solver solver_;
   raster::MirrorBackgroundPass background_;

@@ -86,6 +86,7 @@ void VirtualObjectSolver::setEye(const dvec3& eye) {
   laneView_ = {vec3(eye - mesh_->centre()), vec3(hiddenMap_.frame.x),       vec3(hiddenMap_.frame.y),
                vec3(hiddenMap_.frame.z),    vec2(hiddenMap_.lower),         vec2(hiddenMap_.pixelsPerUnit),
                float(hiddenMap_.nearest),   float(hiddenMap_.squaredCosine)};
+  if (finder_) finder_->setEye(makeEyeView());
 }
 
 /// Where the ray to the point meets the triangle that hides the point from the eye; nothing if none does.
@@ -192,6 +193,7 @@ VirtualVertex VirtualObjectSolver::solveRefined(const dvec3& scenePoint, const S
 
 VirtualVertex VirtualObjectSolver::solve(Solver solver, const dvec3& scenePoint) const {
   if (!canReflect_ || !isFinite(scenePoint)) return {};
+  if (solver != Solver::Explosion && solver != Solver::Refined) return solveFound(scenePoint).checked();
   double nearWeight;
   const dvec2 coords = computeCoords(scenePoint, nearWeight);
   const VirtualVertex vertex = solver == Solver::Explosion
@@ -228,6 +230,7 @@ void VirtualObjectSolver::computeInOrder(const VertexSink& sink, std::size_t beg
 
 std::optional<ReflectionPoint> VirtualObjectSolver::findReflectionPoint(Solver solver,
                                                                         const dvec3& scenePoint) const {
+  if (solver != Solver::Explosion && solver != Solver::Refined) return describeFound(scenePoint);
   const VirtualVertex vertex = solve(solver, scenePoint);
   if (vertex.kind == VertexKind::None) return std::nullopt;
   const MirrorTriangle& t = mesh_->triangles()[vertex.at.triangle];

@@ -9,11 +9,13 @@
 //   mirror law, which
 //              walks across triangle edges; then Q' lies on the ray eye -> J at distance |EJ| + |JQ|, so that
 //              depth order is the order of path length.
-// World space, double inside, float at the borders.
+// The other solvers (analytic, layered, subdivision) are PointFinders in files of their own; what they find
+// is placed here, like Refined's. World space, double inside, float at the borders.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -23,12 +25,13 @@
 #include "catoptric/raster/virtual_triangles.h"
 #include "catoptric/virtual_object/explosion_map.h"
 #include "catoptric/virtual_object/mirror_law_lanes.h"
+#include "catoptric/virtual_object/point_finder.h"
 #include "catoptric/virtual_object/reflection_point.h"
 #include "catoptric/virtual_object/reflector_mesh.h"
 
 namespace catoptric::virtual_object {
 
-enum class Solver : std::uint8_t { Explosion, Refined };
+enum class Solver : std::uint8_t { Explosion, Refined, Analytic, Layered, Subdivision };
 
 using raster::VertexKind;
 
@@ -91,8 +94,13 @@ class VirtualObjectSolver {
   VirtualObjectSolver(const ReflectorMesh& mesh, const dvec3& eye, double farRadius,
                       const SolverOptions& options = {});
 
-  /// Rebuilds the maps for a new eye; allocates nothing.
+  /// Rebuilds the maps for a new eye; allocates nothing (a finder may).
   void setEye(const dvec3& eye);
+
+  /// What solvers other than Explosion and Refined ask; without one they reflect nothing. It is given the
+  /// eye.
+  void useFinder(std::unique_ptr<PointFinder> finder);
+  [[nodiscard]] bool hasFinder() const { return finder_ != nullptr; }
 
   /// All spans have equal length, except that `reflectionPoints` (J, wanted by selectVirtualTriangles()) may
   /// be empty. Parallel, and for convex mirrors in the processor's vectors; the result does not depend on the
@@ -128,6 +136,9 @@ class VirtualObjectSolver {
   [[nodiscard]] bool jumpTo(LanePoint& at, const vec3& target) const;
   [[nodiscard]] LanePoint findLaneSeed(const vec3& scenePoint) const;
   [[nodiscard]] bool mayBeHidden(const vec3& local) const;
+  [[nodiscard]] VirtualVertex solveFound(const dvec3& scenePoint) const;
+  [[nodiscard]] std::optional<ReflectionPoint> describeFound(const dvec3& scenePoint) const;
+  [[nodiscard]] EyeView makeEyeView() const;
   [[nodiscard]] dvec2 computeCoords(const dvec3& scenePoint, double& nearWeight) const;
   [[nodiscard]] SurfacePoint findSeed(const SeedPixel& seed, double nearWeight) const;
   [[nodiscard]] std::optional<SurfacePoint> findHidingPoint(const dvec3& scenePoint, bool surely) const;
@@ -145,6 +156,7 @@ class VirtualObjectSolver {
   std::vector<LaneTriangle> laneTriangles_;
   LaneView laneView_;
   MapScratch scratch_[3];
+  std::unique_ptr<PointFinder> finder_;
 };
 
 }  // namespace catoptric::virtual_object

@@ -196,10 +196,10 @@ const Expected kExpected[] = {
     {"concave-bowl", {{ReflectorShape::Sphere, 1}}, false},
     {"mask", {{ReflectorShape::Mesh, 1}}, false},
     {"mixed", {{ReflectorShape::Mesh, 1}}, false},
-    {"tv", {{ReflectorShape::Mesh, 1}}},
+    {"tv", {{ReflectorShape::Extrusion, 1}}},
     {"cone", {{ReflectorShape::Cone, 1}}},
     {"vase", {{ReflectorShape::Mesh, 1}}, false},
-    {"wavy-wall", {{ReflectorShape::Mesh, 1}}, false},
+    {"wavy-wall", {{ReflectorShape::Extrusion, 1}}, false},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedScene, testing::ValuesIn(kExpected), [](const auto& param) {

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// Steps: 1 refit the shape that scene/reflector_finding recognised or was told, 2 all reflection points on
+// the whole shape, 3 the one that lies on the mirror, or else the nearest one, which makes a doubly virtual
+// vertex: a shape goes on past the mirror's boundary by itself.
+//
+// Departures: where several points lie on the mirror (concave, near a focus) the one nearest to its middle is
+// taken, for one vertex has one image. "On the mirror" is taken generously, by its bounding sphere: a vertex
+// taken for reflected draws outside the mirror's image and is masked.
+#include "catoptric/virtual_object/analytic_finder.h"
+
+#include "catoptric/geometry/extrusion.h"
+#include "catoptric/geometry/shape_recognition.h"
+#include "catoptric/virtual_object/extruded_reflector.h"
+#include "catoptric/virtual_object/special_reflector.h"
+
+namespace catoptric::virtual_object {
+namespace {
+
+constexpr double kSlack = 1 + 1e-6;  // of the bounding sphere's radius
+
+class SpecialFinder : public PointFinder {
+ public:
+  SpecialFinder(const SpecialReflector& shape, const scene::Reflector& reflector)
+      : shape_(shape), centre_(reflector.centre), radius_(reflector.radius * kSlack) {}
+
+  void setEye(const EyeView& view) override { eye_ = view.eye; }
+  [[nodiscard]] bool knowsHiddenPoints() const override { return !shape_.isInside; }
+
+  [[nodiscard]] std::optional<FoundPoint> find(const dvec3& scenePoint) const override {
+    std::optional<FoundPoint> best;
+    double bestDistance = 0;
+    for (const Reflection& r : findReflections(shape_, eye_, scenePoint)) {
+      const double distance = glm::distance(r.position, centre_);
+      if (best && distance >= bestDistance) continue;
+      best = FoundPoint{};
+      best->position = r.position;
+      best->normal = r.normal;
+      best->isPastBoundary = distance > radius_;
+      bestDistance = distance;
+    }
+    return best;
+  }
+
+ private:
+  SpecialReflector shape_;
+  dvec3 eye_{0}, centre_;
+  double radius_;
+};
+
+class ExtrudedFinder : public PointFinder {
+ public:
+  ExtrudedFinder(const geometry::ExtrusionFit& profile, double skirt) : reflector_(profile, skirt) {}
+  void setEye(const EyeView& view) override { reflector_.setEye(view.eye); }
+  [[nodiscard]] bool knowsHiddenPoints() const override { return true; }
+  [[nodiscard]] std::optional<FoundPoint> find(const dvec3& scenePoint) const override {
+    return reflector_.find(scenePoint);
+  }
+
+ private:
+  ExtrudedReflector reflector_;
+};
+
+/// The vertices of one part, renumbered.
+struct PartMesh {
+  std::span<const vec3> positions, normals;
+  std::vector<std::uint32_t> indices;
+  [[nodiscard]] geometry::MeshView view() const { return {positions, normals, indices}; }
+};
+
+PartMesh extractPart(const scene::WorldGeometry& world, const scene::Part& part) {
+  PartMesh mesh;
+  mesh.positions = std::span(world.positions).subspan(part.firstVertex, part.vertexCount);
+  mesh.normals = std::span(world.normals).subspan(part.firstVertex, part.vertexCount);
+  for (std::uint32_t i = part.firstIndex; i < part.firstIndex + part.indexCount; ++i)
+    mesh.indices.push_back(world.indices[i] - part.firstVertex);
+  return mesh;
+}
+
+std::optional<SpecialReflector> fitSpecial(scene::ReflectorShape shape, const geometry::MeshView& mesh) {
+  if (shape == scene::ReflectorShape::Sphere)
+    if (const auto fit = geometry::fitSphere(mesh))
+      return SpecialReflector{SpecialShape::Sphere, fit->centre, {0, 0, 1}, fit->radius, 0, fit->isInside};
+  if (shape == scene::ReflectorShape::Cylinder)
+    if (const auto fit = geometry::fitCylinder(mesh))
+      return SpecialReflector{SpecialShape::Cylinder, fit->point, fit->axis, fit->radius, 0, fit->isInside};
+  if (shape == scene::ReflectorShape::Cone)
+    if (const auto fit = geometry::fitCone(mesh))
+      return SpecialReflector{SpecialShape::Cone,    fit->apex,    fit->axis, 0,
+                              fit->halfAngleRadians, fit->isInside};
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string findAnalyticObstacle(const scene::Reflector& reflector, bool flipped) {
+  switch (reflector.shape) {
+    case scene::ReflectorShape::Plane:
+      return "flat: mirrored as a whole, no reflection points are sought";
+    case scene::ReflectorShape::Sphere:
+    case scene::ReflectorShape::Cylinder:
+    case scene::ReflectorShape::Cone:
+      return {};
+    case scene::ReflectorShape::Extrusion:
+      if (reflector.isConvex && !flipped) return {};
+      return "an extrusion that is not convex: a point may have several reflections";
+    case scene::ReflectorShape::Mesh:
+      break;
+  }
+  return "no sphere, cylinder, cone or extrusion fits its vertices";
+}
+
+std::unique_ptr<PointFinder> makeAnalyticFinder(const scene::WorldGeometry& world, std::uint32_t reflector,
+                                                bool flipped, double skirt) {
+  const scene::Reflector& mirror = world.reflectors[reflector];
+  if (!findAnalyticObstacle(mirror, flipped).empty()) return nullptr;
+  const PartMesh mesh = extractPart(world, world.parts[mirror.part]);
+  if (mirror.shape == scene::ReflectorShape::Extrusion) {
+    const auto profile = geometry::fitExtrusion(mesh.view());
+    return profile ? std::make_unique<ExtrudedFinder>(*profile, skirt) : nullptr;
+  }
+  auto special = fitSpecial(mirror.shape, mesh.view());
+  if (!special) return nullptr;
+  if (flipped) special->isInside = !special->isInside;
+  return std::make_unique<SpecialFinder>(*special, mirror);
+}
+
+}  // namespace catoptric::virtual_object
