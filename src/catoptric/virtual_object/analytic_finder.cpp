@@ -3,6 +3,9 @@
 // the whole shape, 3 the one that lies on the mirror, or else the nearest one, which makes a doubly virtual
 // vertex: a shape goes on past the mirror's boundary by itself.
 //
+// Inside a shape the other answers lie anywhere on it, also where the mirror was left out for the light to
+// come in, so only those near the mirror count.
+//
 // Departures: where several points lie on the mirror (concave, near a focus) the one nearest to its middle is
 // taken, for one vertex has one image. "On the mirror" is taken generously, by its bounding sphere: a vertex
 // taken for reflected draws outside the mirror's image and is masked.
@@ -17,6 +20,7 @@ namespace catoptric::virtual_object {
 namespace {
 
 constexpr double kSlack = 1 + 1e-6;  // of the bounding sphere's radius
+constexpr double kBeyond = 1.45;     // of it: how far outside a concave mirror a point still belongs to it
 
 class SpecialFinder : public PointFinder {
  public:
@@ -32,6 +36,7 @@ class SpecialFinder : public PointFinder {
     for (const Reflection& r : findReflections(shape_, eye_, scenePoint)) {
       const double distance = glm::distance(r.position, centre_);
       if (best && distance >= bestDistance) continue;
+      if (shape_.isInside && distance > kBeyond * radius_) continue;
       best = FoundPoint{};
       best->position = r.position;
       best->normal = r.normal;

@@ -125,7 +125,11 @@ void findOnCone(const SpecialReflector& r, const dvec3& eye, const dvec3& point,
     const dvec3 n = r.isInside ? -outward : outward, along = cosine * r.axis + sine * out;
     const double e = glm::dot(n, e3), q = glm::dot(n, q3);
     if (!(e > 0 && q > 0)) continue;
-    const double fromApex = (q * glm::dot(e3, along) + e * glm::dot(q3, along)) / (e + q);
+    // Unfolded around the line of contact the path is straight. (Dividing as e : q is the same, but loses
+    // digits at grazing angles, where both are small.)
+    const double eyeAlong = glm::dot(e3, along), pointAlong = glm::dot(q3, along);
+    const double toEye = glm::length(e3 - eyeAlong * along), toPoint = glm::length(q3 - pointAlong * along);
+    const double fromApex = (toPoint * eyeAlong + toEye * pointAlong) / (toEye + toPoint);
     if (fromApex > 0) found.all[std::size_t(found.count++)] = {r.origin + fromApex * along, n};
   }
 }

@@ -86,7 +86,8 @@ void expectWithin(const TestWorld& world, const scene::CameraFrame& camera, cons
 constexpr Limits kLimits{0.15, 0.99, 0.004, 0.985, 0.008};
 
 TestWorld makeSphereWorld() {
-  TestWorld world(geometry::transformed(geometry::makeIcosphere(0.5, 24), geometry::moveBy({0, 0.5, 0})));
+  TestWorld world(geometry::transformed(geometry::makeIcosphere(0.5, 24), geometry::moveBy({0, 0.5, 0})),
+                  scene::ReflectorShape::Sphere);
   addRoom(world, 4, 3);
   world.add(boxAt({0.3, 0.3, 0.3}, {0.7, 0.15, 0.4}), false);
   world.add(boxAt({0.2, 0.8, 0.2}, {-0.62, 0.4, 0.2}), false);  // 20 mm from the sphere
@@ -156,6 +157,17 @@ TEST(Picture, fenderPatch) {
   world.add(boxAt({0.1, 0.1, 0.1}, {-0.1, 0.72, 0.22}), false);
   world.add(boxAt({0.6, 1.5, 0.4}, {1.5, 0.75, 1.6}), false);
   expectWithin(world, cameraAt({-0.3, 1.4, 1.6}, {0, 0.8, 0}, 0.6), "fender", kLimits);
+}
+
+TEST(Picture, findersOnTheSphere) {
+  // Half the size, for time; layered measured 0.05 px median, 98.9 % of object pixels within 1 px.
+  const TestWorld world = makeSphereWorld();
+  const auto measure = [&](Solver solver, const char* name) {
+    return report(measureReflection(world, sphereCamera(480, 360), solver, {}, name), name);
+  };
+  EXPECT_TRUE(isWithin(measure(Solver::Analytic, "analytic"), kLimits));
+  EXPECT_TRUE(isWithin(measure(Solver::Subdivision, "subdivision"), kLimits));
+  EXPECT_TRUE(isWithin(measure(Solver::Layered, "layered"), {0.15, 0.97, 0.02, 0.97, 0.02}));
 }
 
 TEST(Picture, aWrongNormalDoesNotPass) {

@@ -14,6 +14,7 @@
 
 #include "catoptric/core/parallel.h"
 #include "catoptric/virtual_object/item_rasterizer.h"
+#include "catoptric/virtual_object/make_point_finder.h"
 
 namespace catoptric::virtual_object::test {
 namespace {
@@ -231,9 +232,10 @@ glm::u8vec3 chequer(const Seen& s) {
 
 }  // namespace
 
-TestWorld::TestWorld(const geometry::Mesh& mirror) {
+TestWorld::TestWorld(const geometry::Mesh& mirror, scene::ReflectorShape shape) {
   scene::Reflector reflector;
   reflector.name = "mirror";
+  reflector.shape = shape;
   core::Box box;
   for (const vec3& p : mirror.positions) box.add(dvec3(p));
   reflector.centre = box.centre();
@@ -281,7 +283,8 @@ HarnessResult measureReflection(const TestWorld& world, const scene::CameraFrame
                                 const scene::WorldGeometry* solvedGeometry) {
   const scene::WorldGeometry& g = world.geometry();
   const ReflectorMesh mesh(solvedGeometry ? *solvedGeometry : g, 0);
-  const VirtualObjectSolver maps(mesh, camera.eye, world.farRadius(mesh.centre()));
+  VirtualObjectSolver maps(mesh, camera.eye, world.farRadius(mesh.centre()));
+  maps.useFinder(makePointFinder(solver, solvedGeometry ? *solvedGeometry : g, 0, false, mesh));
   const TessellatedObjects objects = tessellateForReflector(g, 0, tessellation);
   std::vector<vec3> virtualPositions(objects.positions.size()), points(objects.positions.size());
   std::vector<VertexKind> kinds(objects.positions.size());

@@ -22,7 +22,7 @@ using namespace raster;
 /// A hand-made world: one mirror (reflector 0, part 0) and things to be reflected.
 class TestWorld {
  public:
-  explicit TestWorld(const geometry::Mesh& mirror);
+  explicit TestWorld(const geometry::Mesh& mirror, scene::ReflectorShape shape = scene::ReflectorShape::Mesh);
   void add(const geometry::Mesh& mesh, bool shell);
 
   [[nodiscard]] const scene::WorldGeometry& geometry() const { return geometry_; }
