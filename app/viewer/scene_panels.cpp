@@ -21,6 +21,8 @@ const char* shapeName(const scene::Reflector& reflector) {
       return "cylinder";
     case scene::ReflectorShape::Cone:
       return "cone";
+    case scene::ReflectorShape::Extrusion:
+      return reflector.isConvex ? "convex extrusion" : "extrusion";
     case scene::ReflectorShape::Mesh:
       return reflector.isConvex ? "convex mesh" : "mesh";
   }
