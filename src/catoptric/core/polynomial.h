@@ -18,7 +18,7 @@ struct RealRoots {
 /// Where sum of coefficients[i] x^i changes its sign; degree at most 4. Roots are bracketed between the
 /// extrema, which are the roots of the derivative, and found by Newton's method that never leaves its
 /// bracket. A root where the polynomial only touches zero may be left out. None for a polynomial that is
-/// zero everywhere. About 0.5 us for a quartic.
+/// zero everywhere.
 [[nodiscard]] RealRoots findRealRoots(std::span<const double> coefficients);
 
 }  // namespace catoptric::core

@@ -11,8 +11,8 @@
 //
 // Departures: everything (methods.md, section 1); the maps themselves as in explosion_map.h. Known failures:
 // J leaves the mirror by the sag of the chord between the two points, which moves Q' by less than the error;
-// those of the maps (concave mirrors fold). Error against K: README. Cost: two random fetches a vertex, 0.15
-// us; 1 to 2 ms of one core for each map and eye.
+// those of the maps (concave mirrors fold). Error against K: SOLVERS.md. Cost: two random fetches a vertex,
+// 0.2 to 0.3 us; 1 to 2 ms of one core for each map and eye.
 #pragma once
 
 #include <vector>

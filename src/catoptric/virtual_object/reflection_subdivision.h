@@ -19,8 +19,8 @@
 //
 // Departures: the paper stops at the cell and mirrors in planes interpolated by these barycentrics;
 // SubdivisionFinder goes on by Newton from there, since interpolated rays are not the rays of interpolated
-// normals (the difference is of second order in the triangle's size). Cost: 1 us per located point; building
-// is n log n, 10 ms for 10,000 triangles.
+// normals (the difference is of second order in the triangle's size). Cost: 10 to 15 us per point; building
+// is n log n.
 #pragma once
 
 #include <vector>

@@ -20,7 +20,7 @@
 // Departures: the 1998 paper leaves the formulas to Ofek's thesis; these are our own, one quartic for all.
 // Known failures: E and Q on one line through the centre or on the axis have a whole circle of answers, of
 // which the ones in one plane (or none) are returned; double roots (Q on a caustic) may be left out. Cost:
-// about 0.6 us. Source: Ofek & Rappoport 1998, section 5; Alhazen's quartic after Agrawal et al. 2011.
+// about 2 us. Source: Ofek & Rappoport 1998, section 5; Alhazen's quartic after Agrawal et al. 2011.
 #pragma once
 
 #include <array>
