@@ -48,6 +48,7 @@ Json makeRow(const MethodVariant& variant, const renderer::FrameOptions& frame, 
           {"reflection_ms", times.reflectionMs},
           {"virtual_vertices", times.counters.virtualVertices},
           {"virtual_triangles", times.counters.virtualTriangles},
+          {"fragment_tests", times.counters.fragmentTests},
           {"virtual_vertices_per_s", rate(times.virtualVerticesPerS)},
           {"rays", times.counters.rays},
           {"rays_per_s", rate(times.raysPerS)}};

@@ -178,6 +178,7 @@ Json makeJson(const Comparison& comparison, const ComparisonRow& row) {
   json["reflection_ms"] = times.reflectionMs;
   json["virtual_vertices"] = times.counters.virtualVertices;
   json["virtual_triangles"] = times.counters.virtualTriangles;
+  json["fragment_tests"] = times.counters.fragmentTests;
   json["virtual_vertices_per_s"] = rate(times.virtualVerticesPerS);
   json["rays"] = times.counters.rays;
   json["rays_per_s"] = rate(times.raysPerS);

@@ -58,6 +58,8 @@ const std::vector<MethodVariant>& methodVariants() {
        true},
       {"virtual-analytic", "virtual objects, closed forms where the shape is known", Method::Virtual,
        Solver::Analytic, true},
+      {"virtual-exact", "virtual objects, each fragment tested by its ray", Method::Virtual, Solver::Exact,
+       true},
       {"raytrace", "ray-traced truth", Method::RayTrace, Solver::Auto, true}};
   return variants;
 }

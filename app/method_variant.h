@@ -24,7 +24,7 @@ struct MethodVariant {
 };
 
 /// Slowest-looking last: none, environment-plain, environment, virtual-explosion, virtual-layered,
-/// virtual-refined, virtual-analytic, raytrace.
+/// virtual-refined, virtual-analytic, virtual-exact, raytrace.
 [[nodiscard]] const std::vector<MethodVariant>& methodVariants();
 
 /// --methods A,B,C. Throws UsageError for a name that is not there or is there twice.

@@ -54,6 +54,7 @@ Json makeFrameJson(const renderer::FrameOptions& options, const renderer::Frame&
           {"counters",
            {{"virtual_vertices", counters.virtualVertices},
             {"virtual_triangles", counters.virtualTriangles},
+            {"fragment_tests", counters.fragmentTests},
             {"reflectors_drawn", counters.reflectorsDrawn},
             {"reflectors_culled", counters.reflectorsCulled},
             {"rays", counters.rays}}}};

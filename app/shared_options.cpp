@@ -21,10 +21,11 @@ const std::vector<renderer::Method> kMethods{renderer::Method::Auto, renderer::M
                                              renderer::Method::RayTrace};
 const std::vector<renderer::Solver> kSolvers{renderer::Solver::Auto,     renderer::Solver::Explosion,
                                              renderer::Solver::Layered,  renderer::Solver::Refined,
-                                             renderer::Solver::Analytic, renderer::Solver::Subdivision};
+                                             renderer::Solver::Analytic, renderer::Solver::Subdivision,
+                                             renderer::Solver::Exact};
 // Words that are planned (docs/methods.md); they get an answer of their own.
 const std::vector<std::string> kPlannedMethods{"morphing", "zexel"};
-const std::vector<std::string> kPlannedSolvers{"exact"};
+const std::vector<std::string> kPlannedSolvers{};
 
 /// The value whose name was typed.
 template <class Value>
@@ -133,7 +134,7 @@ void declareMethod(Arguments& arguments, renderer::FrameOptions& options, bool& 
                    });
   arguments.option(
       "--solver", "NAME",
-      "Of the virtual method: auto (default), explosion, layered, refined, analytic, subdivision",
+      "Of the virtual method: auto (default), explosion, layered, refined, exact, analytic, subdivision",
       [&](const std::string& text) {
         options.solver = choose("--solver", text, kSolvers, renderer::solverName, kPlannedSolvers);
       });

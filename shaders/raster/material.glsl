@@ -27,6 +27,12 @@ vec2 slotUv(int slot, vec2 uv0, vec2 uv1) {
   return vec2(dot(m_uvRows[2 * slot].xyz, vec3(uv, 1.0f)), dot(m_uvRows[2 * slot + 1].xyz, vec3(uv, 1.0f)));
 }
 
+/// How slotUv() changes where the mesh's coordinates change by d0 and d1.
+vec2 slotUvChange(int slot, vec2 d0, vec2 d1) {
+  vec2 d = m_uvRows[2 * slot].w > 0.5f ? d1 : d0;
+  return vec2(dot(m_uvRows[2 * slot].xy, d), dot(m_uvRows[2 * slot + 1].xy, d));
+}
+
 /// The rule of lib/texture_lod.glsl: blend two integer levels.
 vec4 sampleSlot(sampler2D map, int slot, vec2 uv, vec2 dx, vec2 dy) {
   vec2 size = vec2(textureSize(map, 0));

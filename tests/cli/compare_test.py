@@ -9,7 +9,7 @@ import unittest
 import support
 
 ALL = ["none", "environment-plain", "environment", "virtual-explosion", "virtual-layered",
-       "virtual-refined", "virtual-analytic", "raytrace"]
+       "virtual-refined", "virtual-analytic", "virtual-exact", "raytrace"]
 QUICK = ("--size", "96x72", "--repeat", "1")
 
 
@@ -39,6 +39,8 @@ class Compare(support.CommandTest):
         # The board is gone from the mirror when nothing is mirrored: its pixels are lost.
         self.assertGreater(rows["none"]["displacement"]["object_pixels"]["share_lost"], 0.5)
         self.assertLess(rows["virtual-refined"]["displacement"]["object_pixels"]["median_px"], 0.5)
+        self.assertLess(rows["virtual-exact"]["displacement"]["object_pixels"]["p95_px"], 0.1)
+        self.assertEqual(rows["virtual-exact"]["solver"], "exact")
 
     def test_page_is_whole_and_offline(self):
         self.compare("scene.gltf", "--methods", "none,virtual-refined")
@@ -88,6 +90,16 @@ class Compare(support.CommandTest):
         compare(3, "--methods", "none", "--min-within-1px", "100%")
         compare(3, "--methods", "none,virtual-refined", "--limit-method", "none", "--max-lost", "1%")
         compare(0, "--methods", "none,virtual-refined", "--max-lost", "10%")
+
+    def test_curved_mirrors_in_curved_mirrors(self):
+        """Spheres in spheres: `exact` follows the chain, `refined` has an environment map there."""
+        for method, code in (("virtual-exact", 0), ("virtual-refined", 3)):
+            done = self.run_command("compare", "four-spheres", "-o", "report", "--methods", method, "--bounces", "3",
+                                    "--size", "160x120", "--repeat", "1", "--max-median", "0.1", "--min-within-1px",
+                                    "99%", "--max-lost", "0.5%")
+            self.assertEqual(done.returncode, code, done.stdout.decode() + done.stderr.decode())
+            row = json.loads(self.read("report", "report.json"))["results"][0]
+            self.assertEqual((row["name"], row["fragment_tests"] > 0), (method, method == "virtual-exact"))
 
     def test_limits_on_nothing_are_exceeded(self):
         done = self.run_command("compare", "scene.gltf", "-o", "report", *QUICK, "--no-reflectors", "--methods", "none",

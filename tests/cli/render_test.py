@@ -10,7 +10,7 @@ import support
 METHODS = (("none",), ("environment",), ("environment", "--plain-environment-map"), ("virtual",),
            ("virtual", "--solver", "explosion"), ("virtual", "--solver", "layered"),
            ("virtual", "--solver", "analytic"), ("virtual", "--solver", "subdivision"),
-           ("virtual", "--solver", "refined"), ("raytrace",), ("auto",))
+           ("virtual", "--solver", "refined"), ("virtual", "--solver", "exact"), ("raytrace",), ("auto",))
 CHANNELS = {**{c: 2 for c in ("R", "G", "B", "A", "seen.X", "seen.Y", "seen.Z", "pathLength")},
             **{c: 0 for c in ("object.id", "triangle.id", "reflector.id", "bounces")}}
 

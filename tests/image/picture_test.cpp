@@ -133,6 +133,18 @@ TEST(Picture, cylinder) {
                {10, 0.25, "reflection points are interpolated between vertices"});
 }
 
+TEST(Picture, concaveMirror) {
+  const Subject subject = subjectOf("concave-bowl");
+  expectWithin(subject, withTurnedNormals(subject.world, 0.005),
+               {8, 0.15, "solver exact: rounding, and edges that fall to the other side of a pixel"});
+}
+
+TEST(Picture, mirrorOfMixedCurvature) {
+  const Subject subject = subjectOf("mask");
+  expectWithin(subject, withTurnedNormals(subject.world, 0.005),
+               {8, 0.15, "solver exact: rounding, and edges that fall to the other side of a pixel"});
+}
+
 // A baseline where the truth cannot judge: both renderers share their shading, sky and tone mapping, so a
 // change there changes both alike. CATOPTRIC_WRITE_BASELINES=1 writes it anew; look at it before it is kept.
 TEST(Picture, shadingIsAsItWas) {

@@ -27,6 +27,8 @@ FormatInfo infoOf(Format format) {
       return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
     case Format::Rg32Ui:
       return {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT};
+    case Format::Rgba32Ui:
+      return {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT};
     case Format::Depth32F:
       return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT};
   }

@@ -7,7 +7,7 @@
 
 namespace catoptric::gl {
 
-enum class Format : std::uint8_t { Rgba8, Srgb8Alpha8, Rgb16F, Rgba16F, Rgba32F, Rg32Ui, Depth32F };
+enum class Format : std::uint8_t { Rgba8, Srgb8Alpha8, Rgb16F, Rgba16F, Rgba32F, Rg32Ui, Rgba32Ui, Depth32F };
 enum class TextureKind : std::uint8_t { Flat, Array, Cube };
 enum class TextureWrap : std::uint8_t { Repeat, MirroredRepeat, ClampToEdge };
 

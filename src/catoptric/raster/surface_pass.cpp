@@ -7,16 +7,31 @@
 
 namespace catoptric::raster {
 
-namespace {
-
-/// What all parts that a program draws in one go share.
-void setView(gl::Program& program, const SceneBuffers& scene, const SurfaceView& view) {
-  program.use();
+void bindSurfaceShading(gl::Program& program, const SceneBuffers& scene) {
   scene.bindEnvironment(program);
   scene.bindLights(program);
   const char* samplers[5] = {"u_baseColor", "u_metallicRoughness", "u_normalMap", "u_occlusion",
                              "u_emissive"};
   for (int unit = 0; unit < 5; ++unit) program.set(samplers[unit], unit);
+}
+
+void bindPart(gl::Program& program, const SceneBuffers& scene, std::uint32_t index, const Chain* chain) {
+  const scene::WorldGeometry& world = scene.geometry();
+  const scene::Part& part = world.parts[index];
+  const bool isReflector = part.reflector != core::kNoId;
+  program.set("u_objectWord", (part.object + 1u) | (part.shell ? 0x80000000u : 0u));
+  program.set("u_reflectorWord", (isReflector ? part.reflector + 1u : 0u) | (chain ? chain->id << 16 : 0u));
+  program.set("u_reflectivity", isReflector ? world.reflectors[part.reflector].reflectivity : 0.0f);
+  program.set("u_clearcoat", isReflector ? world.reflectors[part.reflector].clearcoat : 0.0f);
+  scene.bindMaterial(part.material);
+}
+
+namespace {
+
+/// What all parts that a program draws in one go share.
+void setView(gl::Program& program, const SceneBuffers& scene, const SurfaceView& view) {
+  program.use();
+  bindSurfaceShading(program, scene);
   program.set("u_clipFromDraw", mat4(view.clipFromDraw));
   program.set("u_eye", vec3(view.eye));
   program.set("u_drawEye", vec3(view.drawEye));
@@ -64,7 +79,6 @@ void SurfacePass::drawRanges(const SceneBuffers& scene, const VertexStreams& str
   const scene::WorldGeometry& world = scene.geometry();
   std::uint32_t prepared = 0;  // bit k: the program for textures k knows this view
   streams.bind();
-  const std::uint32_t chainWord = view.chain ? view.chain->id << 16 : 0u;
   for (const DrawRange& range : ranges) {
     const scene::Part& part = world.parts[range.part];
     if (range.indexCount == 0 || (part.reflector != core::kNoId && part.reflector == view.excludedReflector))
@@ -77,17 +91,12 @@ void SurfacePass::drawRanges(const SceneBuffers& scene, const VertexStreams& str
     else
       program.use();
     prepared |= 1u << textures;
-    const bool isReflector = part.reflector != core::kNoId;
-    program.set("u_objectWord", (part.object + 1u) | (part.shell ? 0x80000000u : 0u));
-    program.set("u_reflectorWord", (isReflector ? part.reflector + 1u : 0u) | chainWord);
-    program.set("u_reflectivity", isReflector ? world.reflectors[part.reflector].reflectivity : 0.0f);
-    program.set("u_clearcoat", isReflector ? world.reflectors[part.reflector].clearcoat : 0.0f);
     const gl::Cull hidden = view.windingFlipped ? gl::Cull::Front : gl::Cull::Back;
     gl::setDrawState({.depthTest = true,
                       .depthWrite = !blended,
                       .cull = material.doubleSided ? gl::Cull::None : hidden,
                       .blendPremultiplied = blended});
-    scene.bindMaterial(part.material);
+    bindPart(program, scene, range.part, view.chain);
     gl::drawTriangles(range.firstIndex, range.indexCount);
   }
 }

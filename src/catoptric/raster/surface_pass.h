@@ -47,6 +47,11 @@ class SurfacePass {
   Programs opaque_, blended_;
 };
 
+/// Sets what raster/surface_shading.glsl needs, for any part; the program must be in use.
+void bindSurfaceShading(gl::Program& program, const SceneBuffers& scene);
+/// And for one part, its material included.
+void bindPart(gl::Program& program, const SceneBuffers& scene, std::uint32_t part, const Chain* chain);
+
 /// Orders the triangles of `ranges` from far to near, as seen from `eye`, and packs them into new ranges over
 /// `sortedIndices`.
 void sortBlendedTriangles(std::span<const DrawRange> ranges, std::span<const std::uint32_t> indices,

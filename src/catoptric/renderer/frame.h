@@ -24,8 +24,8 @@ namespace catoptric::renderer {
 
 /// How reflections are made. None: mirrors show the environment only, as they do after the last bounce.
 enum class Method { Auto, None, Environment, Virtual, RayTrace };
-/// How the Virtual method finds reflection points on curved mirrors.
-enum class Solver { Auto, Explosion, Layered, Refined, Analytic, Subdivision };
+/// How the Virtual method finds reflection points on curved mirrors; Exact tests fragments instead.
+enum class Solver { Auto, Explosion, Layered, Refined, Exact, Analytic, Subdivision };
 
 /// Names as on the command line.
 [[nodiscard]] std::string_view methodName(Method method);
@@ -49,12 +49,13 @@ struct FrameTimings {
   double totalMs = 0;            ///< the frame, without reading it back
   double primaryMs = 0;          ///< the picture without reflections
   double reflectionMs = 0;       ///< everything else
-  double virtualVerticesMs = 0;  ///< of which: finding reflection points
+  double virtualVerticesMs = 0;  ///< of which: finding reflection points, or where triangles may be seen
 };
 
 struct FrameCounters {
   std::uint64_t virtualVertices = 0;   ///< reflection points sought
   std::uint64_t virtualTriangles = 0;  ///< drawn into reflection images
+  std::uint64_t fragmentTests = 0;     ///< Exact: pixels that met a triangle offered to them, or did not
   std::uint64_t reflectorsDrawn = 0, reflectorsCulled = 0;
   std::uint64_t rays = 0;  ///< RayTrace only
 };

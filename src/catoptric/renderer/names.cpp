@@ -34,6 +34,8 @@ std::string_view solverName(Solver solver) {
       return "analytic";
     case Solver::Subdivision:
       return "subdivision";
+    case Solver::Exact:
+      return "exact";
   }
   return "?";
 }
@@ -46,8 +48,8 @@ MethodChoice chooseByShape(const scene::Reflector& reflector) {
   if (reflector.isConvex)
     return {Method::Virtual, Solver::Refined, "convex: one reflection point for every scene point", {}};
   return {Method::Virtual,
-          Solver::Refined,
-          "not convex: drawn as one piece, right where a point has one reflection only",
+          Solver::Exact,
+          "not convex: a point may have several reflections, each pixel's ray meets the real triangles",
           {}};
 }
 

@@ -149,8 +149,13 @@ std::vector<raster::Chain> RasterFrame::findChains(const raster::Level& level,
   return chains;
 }
 
-raster::ReflectionMethod* RasterFrame::pickMethod(const raster::Chain& chain, Method method) {
-  if (method == Method::Environment) return &environment_;
+raster::ReflectionMethod* RasterFrame::pickMethod(const raster::Chain& chain, const FrameOptions& options) {
+  if (options.method == Method::Environment) return &environment_;
+  const bool needsExact =
+      chain.hasSecondCurved ||
+      (chain.curved && Renderer::chooseMethod(geometry_.reflectors[*chain.curved]).solver == Solver::Exact);
+  const bool wantsExact = options.solver == Solver::Exact || (options.solver == Solver::Auto && needsExact);
+  if (wantsExact && exact_.supports(chain)) return &exact_;
   const std::array<raster::ReflectionMethod*, 3> table{&planar_, &virtual_, &environment_};
   for (raster::ReflectionMethod* candidate : table)
     if (candidate->supports(chain)) return candidate;
@@ -176,6 +181,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   lastChain_ = 0;
   planar_.prepare(context);
   virtual_.prepare(context);
+  exact_.prepare(context);
   environment_.prepare(context);
   std::vector<raster::Chain> parents{raster::makeEyeChain()};
   int levelCount = 1;
@@ -190,7 +196,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
     raster::Level& target = *levels_[std::size_t(level) + 1];
     target.clear(findUnion(chains));
     for (const raster::Chain& chain : chains)
-      if (raster::ReflectionMethod* method = pickMethod(chain, options.method))
+      if (raster::ReflectionMethod* method = pickMethod(chain, options))
         method->render(context, chain, *levels_[std::size_t(level)], target);
     ++levelCount;
     parents = chains;
@@ -207,6 +213,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   frame.timings.reflectionMs = frame.timings.totalMs - frame.timings.primaryMs;
   frame.counters.virtualVertices += counters.virtualVertices;
   frame.counters.virtualTriangles += counters.virtualTriangles;
+  frame.counters.fragmentTests += counters.fragmentTests;
   frame.counters.reflectorsDrawn = visibleReflectors;
   frame.counters.reflectorsCulled = geometry_.reflectors.size() - visibleReflectors;
 }

@@ -9,6 +9,7 @@
 #include "catoptric/gl/context.h"
 #include "catoptric/planar_mirror/planar_mirror_method.h"
 #include "catoptric/renderer/frame.h"
+#include "catoptric/virtual_object/exact/exact_method.h"
 #include "catoptric/virtual_object/virtual_object_method.h"
 
 namespace catoptric::renderer {
@@ -28,7 +29,7 @@ class RasterFrame {
   /// Chains that the mirrors visible in a level begin; from the level's ids.
   [[nodiscard]] std::vector<raster::Chain> findChains(const raster::Level& level,
                                                       const std::vector<raster::Chain>& parents);
-  [[nodiscard]] raster::ReflectionMethod* pickMethod(const raster::Chain& chain, Method method);
+  [[nodiscard]] raster::ReflectionMethod* pickMethod(const raster::Chain& chain, const FrameOptions& options);
   void readSeen(const raster::Level& level, Frame& frame) const;
 
   gl::Context& context_;
@@ -39,6 +40,7 @@ class RasterFrame {
   raster::ComposePass compose_;
   planar_mirror::PlanarMirrorMethod planar_;
   virtual_object::VirtualObjectMethod virtual_;
+  virtual_object::ExactMethod exact_;
   environment_map::EnvironmentMapMethod environment_;
   std::vector<std::unique_ptr<raster::Level>> levels_;
   std::vector<uvec2> idsPixels_;

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a point of a surface, with how its attributes change per pixel, to the light that leaves it. World space. Shared
+// by every pass that shades surfaces; the ray tracer has the same rules in reference/surface_shading.
+
+const int kMaxLights = 16;
+
+uniform uint u_objectWord;        // (object + 1) | shell << 31
+uniform uint u_reflectorWord;     // (reflector + 1) | chain << 16
+uniform float u_reflectivity;     // of the part, 0 for everything that is no reflector
+uniform float u_clearcoat;
+uniform int u_lightCount;
+uniform vec4 u_lights[4 * kMaxLights];  // color+kind, position+range, direction+cosInner, cosOuter
+
+/// A point to be shaded. Changes (Dx, Dy) are per pixel of the target.
+struct SurfacePoint {
+  vec3 position;
+  vec3 positionDx, positionDy;
+  vec3 normal;            // interpolated, on the front side
+  vec4 tangent;           // w = handedness, zero if the mesh has none
+  vec2 uv0, uv0Dx, uv0Dy;
+  vec2 uv1, uv1Dx, uv1Dy;
+  vec4 color;
+  vec3 toViewer;          // unit
+  bool isFront;
+};
+
+/// What leaves it.
+struct ShadedPoint {
+  vec3 radiance;          // without the mirror lobe
+  vec3 weight;            // what part of the mirrored radiance
+  vec3 mirrorDirection;
+};
+
+vec4 readSlot(sampler2D map, int slot, SurfacePoint p) {
+  return sampleSlot(map, slot, slotUv(slot, p.uv0, p.uv1), slotUvChange(slot, p.uv0Dx, p.uv1Dx),
+                    slotUvChange(slot, p.uv0Dy, p.uv1Dy));
+}
+
+vec4 readBaseColor(SurfacePoint p) {
+  vec4 base = m_baseColor * p.color;
+  return hasTexture(0) ? base * readSlot(u_baseColor, 0, p) : base;
+}
+
+/// Is this texel of an alpha-masked material cut out?
+bool isCutOut(vec4 base) { return m_more.z > 0.5f && base.a < m_factors.w; }
+
+vec3 shadingNormal(SurfacePoint p) {
+  vec3 n = normalize(p.normal);
+  if (hasTexture(2)) {
+    vec3 t = p.tangent.xyz;
+    float handedness = p.tangent.w;
+    if (dot(t, t) < 1.0e-12f) {  // no tangents: from the change of texture coordinates over the triangle
+      vec2 dx = slotUvChange(2, p.uv0Dx, p.uv1Dx), dy = slotUvChange(2, p.uv0Dy, p.uv1Dy);
+      float determinant = dx.x * dy.y - dy.x * dx.y;
+      t = (p.positionDx * dy.y - p.positionDy * dx.y) * (determinant < 0.0f ? -1.0f : 1.0f);
+      vec3 b = (p.positionDy * dx.x - p.positionDx * dy.x) * (determinant < 0.0f ? -1.0f : 1.0f);
+      t = t - n * dot(n, t);
+      handedness = dot(cross(n, t), b) < 0.0f ? -1.0f : 1.0f;
+    }
+    if (dot(t, t) > 1.0e-30f) {
+      t = normalize(t);
+      vec3 b = cross(n, t) * handedness;
+      vec3 c = readSlot(u_normalMap, 2, p).xyz;
+      vec3 m = normalize((2.0f * c - vec3(1.0f)) * vec3(m_factors.y, m_factors.y, 1.0f));
+      n = normalize(t * m.x + b * m.y + n * m.z);
+    }
+  }
+  return p.isFront ? n : -n;
+}
+
+PunctualLight readLight(int i) {
+  PunctualLight light;
+  light.color = u_lights[4 * i].xyz;
+  light.kind = int(u_lights[4 * i].w);
+  light.position = u_lights[4 * i + 1].xyz;
+  light.range = u_lights[4 * i + 1].w;
+  light.direction = u_lights[4 * i + 2].xyz;
+  light.cosInner = u_lights[4 * i + 2].w;
+  light.cosOuter = u_lights[4 * i + 3].x;
+  return light;
+}
+
+ShadedPoint shadePoint(SurfacePoint p, vec3 normal, vec3 baseColor) {
+  Surface s;
+  s.position = p.position;
+  s.toViewer = p.toViewer;
+  s.normal = normal;
+  s.baseColor = baseColor;
+  s.emissive = m_emissive.rgb;
+  if (hasTexture(4)) s.emissive *= readSlot(u_emissive, 4, p).rgb;
+  s.metallic = m_emissive.w;
+  s.roughness = m_factors.x;
+  if (hasTexture(1)) {
+    vec4 texel = readSlot(u_metallicRoughness, 1, p);
+    s.roughness *= texel.g;
+    s.metallic *= texel.b;
+  }
+  s.occlusion = 1.0f;
+  if (hasTexture(3)) s.occlusion = mix(1.0f, readSlot(u_occlusion, 3, p).r, m_factors.z);
+  s.f0Dielectric = m_more.x;
+  s.reflectivity = u_reflectivity;
+  s.clearcoat = u_clearcoat;
+
+  ShadedPoint shaded;
+  shaded.mirrorDirection = reflect(-s.toViewer, s.normal);
+  shaded.radiance = s.baseColor;  // unlit
+  shaded.weight = vec3(0.0f);
+  if (m_more.y > 0.5f) return shaded;
+  vec3 direct = vec3(0.0f);
+  for (int i = 0; i < u_lightCount; ++i) direct += shadeLight(readLight(i), s);
+  vec3 prefiltered = s.reflectivity > 0.0f ? vec3(0.0f) : lookUpPrefiltered(shaded.mirrorDirection, s.roughness);
+  shaded.radiance = shadeSurface(s, direct, lookUpIrradiance(s.normal), prefiltered);
+  if ((u_reflectorWord & 0xffffu) != 0u) shaded.weight = mirrorWeight(s);
+  return shaded;
+}

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Solver `exact`: reflections in any curved mirror, or chain of mirrors, that agree with ray tracing.
+//
+// In:  the level before, which holds at each mirror pixel the point, the mirror direction and the ids.
+// Out: the next level at the pixels of one mirror, as every ReflectionMethod.
+// Steps:
+//   1. The reflected ray of every mirror pixel goes into two textures, once a level (exact_rays.frag).
+//   2. On the CPU: rectangles of pixels in which a triangle may be seen (tile_cover.h).
+//   3. Each rectangle is drawn; a fragment meets its ray with the real triangle, the depth buffer keeps the
+//   nearest one
+//      by the length of the ray (exact_hit.frag).
+//   4. Part by part, what was met is shaded once at each pixel, with the functions that shade directly seen
+//   surfaces
+//      (exact_shade.frag). Derivatives of texture coordinates are those of the rays (Igehy 1999), not of the
+//      fragments.
+//   5. Blended triangles over it, from far to near as seen from the mirror's centre.
+// Departures: methods.md bounds a virtual triangle by its three reflection points; tiles need none, so
+// chains, saddles
+//   and foci are no special cases.
+// Known failures: whether a double-sided convex mirror shows its back is decided for the whole mirror.
+// Blended triangles
+//   that pass through each other are ordered by their centres.
+// Cost: virtual_object/README.md.
+// Source: our own; the fragment's test after Hou 2006 and Liu 2011.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "catoptric/raster/reflection_method.h"
+#include "catoptric/virtual_object/exact/scene_triangles.h"
+#include "catoptric/virtual_object/exact/tile_cover.h"
+
+namespace catoptric::virtual_object {
+
+class ExactMethod : public raster::ReflectionMethod {
+ public:
+  ExactMethod();
+  [[nodiscard]] std::string_view name() const override { return "virtual"; }
+  [[nodiscard]] bool supports(const raster::Chain& chain) const override { return chain.curved.has_value(); }
+  void prepare(raster::FrameContext&) override { raysOf_ = nullptr; }
+  void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
+              raster::Level& target) override;
+
+  /// What was offered by the last render(), and the rays it was offered to; for tests of conservativeness.
+  [[nodiscard]] const Cover& cover() const { return cover_; }
+  [[nodiscard]] const RayImages& rays() const { return rays_; }
+
+ private:
+  /// Rays and hits of a picture of one size.
+  struct Targets {
+    Targets(int width, int height);
+    int widthPx, heightPx;
+    gl::Texture origins, directions, hits, depth;
+    gl::Framebuffer rays, hitTests;
+  };
+  void prepareScene(const raster::FrameContext& frame, const raster::Level& parent);
+  void readRays(const raster::Level& parent);
+  [[nodiscard]] CoverQuery makeQuery(const raster::FrameContext& frame, const raster::Chain& chain) const;
+  [[nodiscard]] bool showsBack(const scene::WorldGeometry& world, const scene::Part& part,
+                               const CoverQuery& query) const;
+  void bindInputs(gl::Program& program, const raster::Level& parent, const raster::Chain& chain) const;
+  enum class PartPass { MaskedHits, Shade, Blend };
+  /// Rectangles of one part after another, each with the program for its material.
+  void drawParts(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
+                 PartPass pass, std::span<const CoverRect> rects);
+  [[nodiscard]] gl::Program& findProgram(PartPass pass, unsigned textureBits);
+  void drawHits(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
+                const CoverQuery& query);
+  void shadeHits(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
+                 const raster::Level& target);
+  void drawBlended(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
+                   raster::Level& target);
+  /// Uploads rectangles; `drawn()` of them are drawn by index afterwards.
+  void uploadRects(std::span<const CoverRect> rects, bool withItems);
+  static void drawRects(std::size_t first, std::size_t count);
+
+  raster::MirrorBackgroundPass background_;
+  gl::Program rayProgram_, hitProgram_;
+  /// Passes that read a material's textures: a program for each set of textures, made when first used.
+  std::array<std::array<std::unique_ptr<gl::Program>, 32>, 3> partPrograms_;
+  gl::VertexArray nothing_, rectArray_;
+  gl::Buffer rectCorners_, rectIndices_;
+  std::size_t indexedRects_ = 0;
+  std::vector<vec4> corners_;
+  std::vector<std::uint32_t> indices_;
+  std::unique_ptr<SceneTriangles> triangles_;
+  std::optional<TileCover> tiles_;
+  std::unique_ptr<Targets> targets_;
+  const raster::Level* raysOf_ = nullptr;  ///< level whose rays are read
+  RayImages rays_;
+  Cover cover_;
+  float depthFromDistance_ = 1;
+};
+
+}  // namespace catoptric::virtual_object

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "catoptric/virtual_object/exact/scene_triangles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "catoptric/core/error.h"
+#include "catoptric/virtual_object/exact/tile_cover.h"
+
+namespace catoptric::virtual_object {
+namespace {
+
+constexpr std::size_t kVertexTexels = 5;
+
+std::uint32_t flagsOf(const raster::SceneBuffers& scene, std::uint32_t part) {
+  const scene::Material& material = scene.material(scene.geometry().parts[part].material);
+  return (material.doubleSided ? 0u : kCoverSingleSided) |
+         (material.alphaMode == scene::AlphaMode::Mask ? kCoverMasked : 0u) |
+         (scene.isBlended(part) ? kCoverBlended : 0u);
+}
+
+std::vector<HierarchyTriangle> listTriangles(const raster::SceneBuffers& scene) {
+  const scene::WorldGeometry& world = scene.geometry();
+  std::vector<HierarchyTriangle> triangles;
+  triangles.reserve(world.triangleCount());
+  for (std::uint32_t p = 0; p < world.parts.size(); ++p) {
+    const scene::Part& part = world.parts[p];
+    const std::uint32_t flags = flagsOf(scene, p);
+    for (std::uint32_t i = part.firstIndex; i < part.firstIndex + part.indexCount; i += 3)
+      triangles.push_back({world.positions[world.indices[i]], world.positions[world.indices[i + 1]],
+                           world.positions[world.indices[i + 2]], i / 3, p, flags});
+  }
+  return triangles;
+}
+
+/// Rows of a width that every GL takes, filled up with zeros.
+template <class Texel>
+std::unique_ptr<gl::Texture> makeTable(gl::Format format, std::vector<Texel>& texels) {
+  const int width = std::min(4096, gl::maxTextureSize());
+  const std::size_t height =
+      std::max<std::size_t>(1, (texels.size() + std::size_t(width) - 1) / std::size_t(width));
+  if (height > std::size_t(gl::maxTextureSize()))
+    throw core::Error("gl.texture_size",
+                      fmt::format("the scene's triangles need a texture of {}x{}, this GL takes {} at most",
+                                  width, height, gl::maxTextureSize()),
+                      {}, "use --solver refined");
+  texels.resize(std::size_t(width) * height);
+  auto texture = std::make_unique<gl::Texture>(gl::TextureKind::Flat, format, width, int(height), 1, 1,
+                                               gl::SamplerState{});
+  texture->upload(0, 0, texels.data());
+  return texture;
+}
+
+}  // namespace
+
+SceneTriangles::SceneTriangles(const raster::SceneBuffers& scene) : hierarchy_(listTriangles(scene)) {
+  const scene::WorldGeometry& world = scene.geometry();
+  std::vector<uvec4> triangles(world.triangleCount());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const std::uint32_t part = world.triangleParts[i];
+    triangles[i] = {world.indices[3 * i], world.indices[3 * i + 1], world.indices[3 * i + 2],
+                    part * 4u + (flagsOf(scene, part) & kCoverSingleSided)};
+  }
+  triangles_ = makeTable(gl::Format::Rgba32Ui, triangles);
+  std::vector<vec4> vertices(kVertexTexels * world.positions.size());
+  for (std::size_t i = 0; i < world.positions.size(); ++i) {
+    vec4* texel = &vertices[kVertexTexels * i];
+    texel[0] = vec4(world.positions[i], world.uv0[i].x);
+    texel[1] = vec4(world.normals[i], world.uv0[i].y);
+    texel[2] = world.tangents[i];
+    texel[3] = world.colors[i];
+    texel[4] = vec4(world.uv1[i], 0.0f, 0.0f);
+  }
+  vertices_ = makeTable(gl::Format::Rgba32F, vertices);
+}
+
+}  // namespace catoptric::virtual_object
