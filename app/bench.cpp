@@ -127,6 +127,7 @@ Command makeBenchCommand() {
             declarePicture(arguments, options->picture);
             declareCamera(arguments, options->camera);
             declareScene(arguments, options->scene);
+            declareMotion(arguments, options->scene);
             declareOutput(arguments, options->output);
           },
       .run = [options](const std::vector<std::string>&) { return run(*options); }};

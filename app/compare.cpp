@@ -158,6 +158,7 @@ void declare(Arguments& arguments, const std::shared_ptr<Options>& options) {
   declarePicture(arguments, options->picture);
   declareCamera(arguments, options->camera);
   declareScene(arguments, options->scene);
+  declareMotion(arguments, options->scene);
   declareOutput(arguments, options->output);
 }
 

@@ -83,6 +83,17 @@ void forbidReflectors(scene::Scene& scene) {
   for (scene::Instance& instance : scene.instances) instance.hint.reflector = false;
 }
 
+/// Brings the scene to the time that was asked for.
+void startMotion(LoadedScene& loaded, const SceneOptions& options) {
+  if (!options.timeS && options.animation.empty()) return;
+  if (loaded.scene.motion.isEmpty())
+    throw core::Error("animation.none", "'" + loaded.source + "' has no animations", {},
+                      "leave --time, --animation and --frames out");
+  loaded.motion = std::make_unique<scene::WorldMotion>(loaded.scene, loaded.geometry, options.reflectors,
+                                                       options.animation);
+  loaded.motion->setTime(options.timeS.value_or(0.0));
+}
+
 scene::Camera findCamera(const LoadedScene& loaded, const std::string& name) {
   const auto& cameras = loaded.scene.cameras;
   std::vector<std::string> names;
@@ -121,6 +132,7 @@ std::unique_ptr<LoadedScene> loadScene(const std::string& source, const SceneOpt
   sayWarnings(loaded->scene);
   if (options.noReflectors) forbidReflectors(loaded->scene);
   loaded->geometry = scene::makeWorldGeometry(loaded->scene, options.reflectors);
+  startMotion(*loaded, options);
   sayDetail(fmt::format("{}: {} triangles, {} reflectors", source, loaded->geometry.triangleCount(),
                         loaded->geometry.reflectors.size()));
   return loaded;

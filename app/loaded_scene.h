@@ -8,6 +8,7 @@
 #include "catoptric/scene/environment.h"
 #include "catoptric/scene/scene.h"
 #include "catoptric/scene/world_geometry.h"
+#include "catoptric/scene/world_motion.h"
 #include "shared_options.h"
 
 namespace catoptric::app {
@@ -23,7 +24,8 @@ struct LoadedScene {
   bool isBuiltIn = false;
   scene::Scene scene;
   scene::WorldGeometry geometry;
-  scene::Environment environment;  ///< empty until loadEnvironment()
+  std::unique_ptr<scene::WorldMotion> motion;  ///< null in the rest pose
+  scene::Environment environment;              ///< empty until loadEnvironment()
 };
 
 /// `source`: a file, "-" for a .glb on stdin, or a built-in scene's name; a file wins. Says the scene's

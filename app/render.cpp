@@ -7,6 +7,7 @@
 #include "catoptric/core/file.h"
 #include "commands.h"
 #include "documents.h"
+#include "frame_sequence.h"
 #include "option_values.h"
 #include "pictures.h"
 #include "shared_options.h"
@@ -18,6 +19,7 @@ namespace {
 struct Options {
   std::string source, picture, aov;
   bool plainMap = false;
+  SequenceOptions sequence;
   SceneOptions scene;
   CameraOptions camera;
   PictureOptions frame;
@@ -60,19 +62,11 @@ Json makeFrameJson(const renderer::FrameOptions& options, const renderer::Frame&
             {"rays", counters.rays}}}};
 }
 
-int run(Options options) {
-  applyOutput(options.output);
-  const PictureFormat format = checkOutputs(options);
-  renderer::FrameOptions& frameOptions = options.frame.frame;
-  frameOptions.boxCorrected = !options.plainMap;
-  frameOptions.withSeen = !options.aov.empty();
-
-  const auto loaded = loadScene(options.source, options.scene);
-  const scene::Camera camera = chooseCamera(*loaded, options.camera);
-  loadEnvironment(*loaded, options.frame.environment);
-  renderer::Renderer renderer(loaded->scene, loaded->geometry, loaded->environment);
-  const renderer::Frame frame = renderer.render(camera, frameOptions);
-
+/// Draws and writes one picture; the files' names are those of the frame.
+renderer::Frame renderFrame(renderer::Renderer& renderer, const scene::Camera& camera, const Options& options,
+                            PictureFormat format) {
+  const renderer::FrameOptions& frameOptions = options.frame.frame;
+  renderer::Frame frame = renderer.render(camera, frameOptions);
   if (!options.picture.empty()) {
     writePicture(options.picture, format, frame.radiance, options.frame.exposure);
     say(fmt::format("wrote {} ({}x{}, {}, {:.0f} ms)",
@@ -83,14 +77,70 @@ int run(Options options) {
     core::writeFileAtomically(options.aov, std::span<const std::byte>(encodeAov(frame)));
     say("wrote " + options.aov);
   }
+  return frame;
+}
+
+Json makeFilesJson(const Options& options) {
+  Json files = Json::object();
+  if (!options.picture.empty()) files["picture"] = options.picture;
+  if (!options.aov.empty()) files["aov"] = options.aov;
+  return files;
+}
+
+/// The scene moves from frame to frame; a camera of the scene moves with it, any other stays.
+Json renderSequence(LoadedScene& loaded, renderer::Renderer& renderer, const scene::Camera& first,
+                    const Options& options, PictureFormat format) {
+  Json frames = Json::array();
+  for (int i = 0; i < options.sequence.frames; ++i) {
+    Options one = options;
+    if (!one.picture.empty()) one.picture = numberFile("-o", options.picture, i);
+    if (!one.aov.empty()) one.aov = numberFile("--aov", options.aov, i);
+    const double timeS = options.scene.timeS.value_or(0.0) + i / options.sequence.framesPerS;
+    loaded.motion->setTime(timeS);
+    renderer.updateGeometry(loaded.motion->movingParts());
+    const scene::Camera camera = first.node >= 0 ? chooseCamera(loaded, options.camera) : first;
+    const renderer::Frame frame = renderFrame(renderer, camera, one, format);
+    Json json = makeFrameJson(one.frame.frame, frame);
+    json["time_s"] = timeS;
+    json["files"] = makeFilesJson(one);
+    frames.push_back(std::move(json));
+  }
+  return frames;
+}
+
+/// A sequence is numbered files of a scene that moves.
+void checkSequence(Options& options) {
+  if (options.sequence.frames == 0) return;
+  if (options.picture == "-") throw UsageError("--frames: a sequence cannot go to standard output");
+  if (!options.picture.empty()) (void)numberFile("-o", options.picture, 0);
+  if (!options.aov.empty()) (void)numberFile("--aov", options.aov, 0);
+  options.scene.timeS = options.scene.timeS.value_or(0.0);
+}
+
+int run(Options options) {
+  applyOutput(options.output);
+  const PictureFormat format = checkOutputs(options);
+  checkSequence(options);
+  renderer::FrameOptions& frameOptions = options.frame.frame;
+  frameOptions.boxCorrected = !options.plainMap;
+  frameOptions.withSeen = !options.aov.empty();
+
+  const auto loaded = loadScene(options.source, options.scene);
+  const scene::Camera camera = chooseCamera(*loaded, options.camera);
+  loadEnvironment(*loaded, options.frame.environment);
+  renderer::Renderer renderer(loaded->scene, loaded->geometry, loaded->environment);
+  Json result;
+  if (options.sequence.frames > 0) {
+    result["frames"] = renderSequence(*loaded, renderer, camera, options, format);
+  } else {
+    result = makeFrameJson(frameOptions, renderFrame(renderer, camera, options, format));
+    result["files"] = makeFilesJson(options);
+  }
   if (!options.output.json.empty()) {
     Json document = makeDocument("render", &renderer);
     document["scene"] = makeSceneJson(*loaded);
     document["camera"] = makeJson(camera);
-    document.update(makeFrameJson(frameOptions, frame));
-    document["files"] = Json::object();
-    if (!options.picture.empty()) document["files"]["picture"] = options.picture;
-    if (!options.aov.empty()) document["files"]["aov"] = options.aov;
+    document.update(result);
     writeDocument(options.output.json, document);
   }
   return 0;
@@ -106,7 +156,8 @@ Command makeRenderCommand() {
               "  catoptric render scene.glb -o picture.png\n"
               "  catoptric render four-spheres -o truth.exr --method raytrace --bounces 4\n"
               "  catoptric render drivers-view -o mirrors.png --size 1280x720 --samples 8\n"
-              "  catoptric render fender -o fender.png --aov seen.exr --json -\n",
+              "  catoptric render fender -o fender.png --aov seen.exr --json -\n"
+              "  catoptric render walk.glb -o walk_####.png --frames 50 --fps 25\n",
           .declare =
               [options](Arguments& arguments) {
                 arguments.positional("SCENE", "A .gltf or .glb file, '-', or a built-in scene",
@@ -116,6 +167,15 @@ Command makeRenderCommand() {
                                  setText(options->picture));
                 arguments.option("--aov", "FILE", "Also write what is seen at each pixel, as .exr",
                                  setText(options->aov));
+                arguments.group("Sequence");
+                arguments.option("--frames", "N",
+                                 "Write N pictures of a scene that moves, as in -o out_####.png",
+                                 setInteger("--frames", options->sequence.frames, 1, 1000000));
+                arguments.option("--fps", "F", "Frames in a second of the scene's time; default 25",
+                                 [options](const std::string& text) {
+                                   options->sequence.framesPerS = parseNumber("--fps", text, 0.001, 100000);
+                                 });
+                declareMotion(arguments, options->scene);
                 declareMethod(arguments, options->frame.frame, options->plainMap);
                 declarePicture(arguments, options->frame);
                 declareCamera(arguments, options->camera);

@@ -87,6 +87,14 @@ void declareScene(Arguments& arguments, SceneOptions& options) {
       [&](const std::string& text) { options.import.maxPixels = parseByteCount("--max-pixels", text); });
 }
 
+void declareMotion(Arguments& arguments, SceneOptions& options) {
+  arguments.group("Animation");
+  arguments.option("--time", "S", "Show the scene at this time, seconds; default: its rest pose",
+                   [&](const std::string& text) { options.timeS = parseNumber("--time", text, 0, 1e6); });
+  arguments.option("--animation", "NAME|INDEX", "Which one plays; default: all that go together",
+                   setText(options.animation));
+}
+
 void declareCamera(Arguments& arguments, CameraOptions& options) {
   arguments.group("Camera (default: the first of the scene, or one that sees all of it)");
   arguments.option("--camera", "NAME|INDEX", "A camera of the scene",

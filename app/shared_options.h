@@ -21,7 +21,9 @@ struct OutputOptions {
 struct SceneOptions {
   scene::ImportOptions import;
   scene::ReflectorOptions reflectors;
-  bool noReflectors = false;  ///< --no-reflectors: no material is a mirror
+  bool noReflectors = false;    ///< --no-reflectors: no material is a mirror
+  std::optional<double> timeS;  ///< --time; absent = rest pose
+  std::string animation;        ///< --animation; empty = all that go together
 };
 
 struct CameraOptions {
@@ -38,6 +40,8 @@ struct PictureOptions {
 
 void declareOutput(Arguments& arguments, OutputOptions& options);
 void declareScene(Arguments& arguments, SceneOptions& options);
+/// --time, --animation.
+void declareMotion(Arguments& arguments, SceneOptions& options);
 void declareCamera(Arguments& arguments, CameraOptions& options);
 /// What is drawn however it is drawn: --size, --bounces, --samples, ...
 void declarePicture(Arguments& arguments, PictureOptions& options);

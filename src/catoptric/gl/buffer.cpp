@@ -3,6 +3,8 @@
 
 #include <glad/gl.h>
 
+#include <cassert>
+
 namespace catoptric::gl {
 
 Buffer::Buffer(BufferKind kind)
@@ -27,6 +29,13 @@ void Buffer::upload(std::span<const std::byte> bytes, bool changesEveryFrame) {
   } else {
     glBufferSubData(GL_COPY_WRITE_BUFFER, 0, GLsizeiptr(bytes.size()), bytes.data());
   }
+}
+
+void Buffer::uploadRange(std::size_t offset, std::span<const std::byte> bytes) {
+  assert(offset + bytes.size() <= capacity_);
+  if (bytes.empty()) return;
+  glBindBuffer(GL_COPY_WRITE_BUFFER, id_);
+  glBufferSubData(GL_COPY_WRITE_BUFFER, GLintptr(offset), GLsizeiptr(bytes.size()), bytes.data());
 }
 
 void Buffer::bindRange(unsigned bindingPoint, std::size_t offset, std::size_t size) const {

@@ -22,6 +22,8 @@ class Buffer {
   void upload(std::span<const T> values, bool changesEveryFrame = false) {
     upload(std::as_bytes(values), changesEveryFrame);
   }
+  /// Replaces a part of the contents, which must be there already.
+  void uploadRange(std::size_t offset, std::span<const std::byte> bytes);
   /// Uniform buffers: makes a range visible at a binding point.
   void bindRange(unsigned bindingPoint, std::size_t offset, std::size_t size) const;
 

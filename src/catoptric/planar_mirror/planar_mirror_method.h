@@ -13,6 +13,7 @@ class PlanarMirrorMethod : public raster::ReflectionMethod {
   [[nodiscard]] std::string_view name() const override { return "planar"; }
   [[nodiscard]] bool supports(const raster::Chain& chain) const override { return !chain.curved; }
   void prepare(raster::FrameContext&) override {}
+  void geometryChanged() override { blendedStreams_.reset(); }
   void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
               raster::Level& target) override;
 

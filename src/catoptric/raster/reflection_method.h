@@ -37,6 +37,8 @@ class ReflectionMethod {
   [[nodiscard]] virtual bool supports(const Chain& chain) const = 0;
   /// Once a frame, before the first render().
   virtual void prepare(FrameContext& frame) = 0;
+  /// Vertices or reflectors of the scene have moved: whatever was made from them is out of date.
+  virtual void geometryChanged() {}
   /// Draws what the last mirror of the chain shows into `target`, at the pixels of `parent` that show that
   /// mirror.
   virtual void render(FrameContext& frame, const Chain& chain, const Level& parent, Level& target) = 0;

@@ -64,6 +64,12 @@ SceneBuffers::SceneBuffers(const scene::Scene& scene, const scene::WorldGeometry
   }
 }
 
+void SceneBuffers::updateGeometry(std::span<const std::uint32_t> movedParts) {
+  for (const std::uint32_t p : movedParts)
+    world_.update(geometry_, geometry_.parts[p].firstVertex, geometry_.parts[p].vertexCount);
+  if (!movedParts.empty()) world_.setIndices(geometry_.indices, false);
+}
+
 bool SceneBuffers::isBlended(std::uint32_t part) const {
   const scene::Part& p = geometry_.parts[part];
   return p.reflector == core::kNoId && material(p.material).alphaMode == scene::AlphaMode::Blend;

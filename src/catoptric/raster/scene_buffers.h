@@ -34,6 +34,9 @@ class SceneBuffers {
   SceneBuffers(const scene::Scene& scene, const scene::WorldGeometry& geometry,
                const scene::Environment& environment);
 
+  /// After vertices of these parts of the geometry have moved, or turned their winding.
+  void updateGeometry(std::span<const std::uint32_t> movedParts);
+
   /// Sets what every shader that includes raster/environment_lookup.glsl needs; the program must be in use.
   void bindEnvironment(gl::Program& program) const;
   void bindLights(gl::Program& program) const;

@@ -65,6 +65,7 @@ class PrimaryPass {
   /// `jitterPx`: where in the pixel the sample lies, (0.5, 0.5) = centre.
   void draw(const SceneBuffers& scene, const scene::CameraFrame& camera, double nearPlane,
             const dvec2& jitterPx, Level& target, std::uint32_t excludedReflector = core::kNoId);
+  void geometryChanged() { blendedStreams_.reset(); }
 
  private:
   SurfacePass& surfaces_;

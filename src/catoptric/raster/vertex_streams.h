@@ -34,6 +34,14 @@ class VertexStreams {
     setIndices(world.indices, false);
   }
 
+  /// Positions, normals and tangents of some vertices, after they have moved.
+  template <class World>
+  void update(const World& world, std::size_t firstVertex, std::size_t count) {
+    updateRange(0, world.positions, firstVertex, count);
+    updateRange(1, world.normals, firstVertex, count);
+    updateRange(2, world.tangents, firstVertex, count);
+  }
+
   /// Virtual vertices, one per vertex.
   void setDrawPositions(std::span<const vec3> positions);
   void setIndices(std::span<const std::uint32_t> indices, bool changesEveryFrame);
@@ -45,6 +53,12 @@ class VertexStreams {
   void upload(unsigned location, const std::vector<T>& values, int components) {
     buffers_[location].upload(std::span<const T>(values));
     array_.setAttribute(location, buffers_[location], components);
+  }
+
+  template <class T>
+  void updateRange(unsigned location, const std::vector<T>& values, std::size_t first, std::size_t count) {
+    buffers_[location].uploadRange(first * sizeof(T),
+                                   std::as_bytes(std::span<const T>(values).subspan(first, count)));
   }
 
   gl::Buffer buffers_[6];

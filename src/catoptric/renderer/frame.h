@@ -89,6 +89,9 @@ class Renderer {
   /// Throws core::Error("gl.*") when there is no usable GL, with the remedy.
   [[nodiscard]] Frame render(const scene::Camera& camera, const FrameOptions& options);
 
+  /// After vertices of these parts of the geometry, or reflectors, have moved (scene::WorldMotion).
+  void updateGeometry(std::span<const std::uint32_t> movedParts);
+
   /// What `auto` picks for a reflector.
   [[nodiscard]] static MethodChoice chooseMethod(const scene::Reflector& reflector);
 

@@ -102,6 +102,14 @@ RasterFrame::RasterFrame(gl::Context& context, const scene::Scene& scene,
                       "use --reflector NAME to pick some");
 }
 
+void RasterFrame::updateGeometry(std::span<const std::uint32_t> movedParts) {
+  scene_.updateGeometry(movedParts);
+  primary_.geometryChanged();
+  for (raster::ReflectionMethod* method :
+       std::initializer_list<raster::ReflectionMethod*>{&planar_, &virtual_, &environment_})
+    method->geometryChanged();
+}
+
 void RasterFrame::prepareLevels(int count, int widthPx, int heightPx) {
   if (!levels_.empty() && (levels_[0]->widthPx != widthPx || levels_[0]->heightPx != heightPx))
     levels_.clear();

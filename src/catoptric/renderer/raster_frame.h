@@ -21,6 +21,8 @@ class RasterFrame {
               const scene::Environment& environment);
 
   [[nodiscard]] Frame render(const scene::CameraFrame& camera, const FrameOptions& options);
+  /// After vertices of these parts have moved.
+  void updateGeometry(std::span<const std::uint32_t> movedParts);
 
  private:
   void prepareLevels(int count, int widthPx, int heightPx);

@@ -63,6 +63,13 @@ Frame Renderer::render(const scene::Camera& camera, const FrameOptions& options)
   return impl_->raster->render(view, options);
 }
 
+void Renderer::updateGeometry(std::span<const std::uint32_t> movedParts) {
+  impl_->tracer.reset();  // its tree is built anew when it is needed
+  if (!impl_->raster) return;
+  impl_->getContext().makeCurrent();
+  impl_->raster->updateGeometry(movedParts);
+}
+
 std::string Renderer::describeGl() {
   return impl_->getContext().description();
 }

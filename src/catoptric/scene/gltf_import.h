@@ -23,7 +23,7 @@ struct ImportOptions {
 
 /// Reads a scene file. Throws core::Error with a code "gltf.*" or "file.*", one line, and the JSON pointer of
 /// the offending element. Repairs (dropped non-finite vertices, recomputed normals, ignored optional
-/// extensions, skins and animations that are left in the rest pose) are listed in Scene::warnings.
+/// extensions) are listed in Scene::warnings.
 [[nodiscard]] Scene importGltf(const std::filesystem::path& path, const ImportOptions& options = {});
 
 /// The same from memory; `baseFolder` is where relative URIs are looked up (empty: none are allowed).

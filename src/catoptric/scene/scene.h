@@ -4,11 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "catoptric/core/math.h"
 #include "catoptric/scene/material.h"
+#include "catoptric/scene/motion.h"
 
 namespace catoptric::scene {
 
@@ -19,14 +21,17 @@ struct MeshPrimitive {
   std::vector<vec3> normals;   ///< unit
   std::vector<vec4> tangents;  ///< unit xyz, w = handedness; empty if absent
   std::vector<vec2> uv[2];
-  std::vector<vec4> colors;            ///< linear RGBA, multiplies the base colour
-  std::vector<std::uint32_t> indices;  ///< three per triangle, counter-clockwise seen from the front
-  int material = -1;                   ///< index into Scene::materials
+  std::vector<vec4> colors;                  ///< linear RGBA, multiplies the base colour
+  std::vector<std::uint32_t> indices;        ///< three per triangle, counter-clockwise seen from the front
+  int material = -1;                         ///< index into Scene::materials
+  std::optional<Deformation> deformation{};  ///< only where an animation may deform it
 };
 
 struct Mesh {
   std::string name;
   std::vector<MeshPrimitive> primitives;
+  int node = -1;  ///< of Motion: whose weights drive its morph targets
+  int skin = -1;  ///< of Motion; the vertices of a skinned mesh stand in the world
 };
 
 /// A mesh placed in the world; one per node that has a mesh.
@@ -35,6 +40,8 @@ struct Instance {
   int mesh = -1;
   dmat4 worldFromMesh{1.0};
   ReflectorHint hint;
+  int node = -1;  ///< of Motion, which carries it: worldFromMesh = worldFromNode nodeFromMesh
+  dmat4 nodeFromMesh{1.0};
 };
 
 enum class LightType : std::uint8_t { Directional, Point, Spot };
@@ -47,6 +54,7 @@ struct Light {
   vec3 direction{0, 0, -1};  ///< unit, the way the light travels
   float range = 0.0f;        ///< 0 = unlimited
   float innerConeRadians = 0.0f, outerConeRadians = 0.7853982f;
+  int node = -1;  ///< of Motion
 };
 
 /// Perspective camera. An orthographic glTF camera is imported as a distant perspective one, with a warning.
@@ -56,6 +64,7 @@ struct Camera {
   dvec3 target{0, 0, -1};
   dvec3 up{0, 1, 0};
   double fovYRadians = 0.9;
+  int node = -1;  ///< of Motion
 };
 
 struct Scene {
@@ -66,6 +75,7 @@ struct Scene {
   std::vector<Instance> instances;
   std::vector<Light> lights;
   std::vector<Camera> cameras;
+  Motion motion;                      ///< empty unless the file has animations
   std::vector<std::string> warnings;  ///< repairs and ignored optional features, one line each
 };
 

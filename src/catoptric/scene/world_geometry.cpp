@@ -46,6 +46,7 @@ class PartWriter {
     part.firstVertex = static_cast<std::uint32_t>(world_.positions.size());
     part.material = primitive.material;
     part.object = primitive.instance;
+    part.primitive = primitive.number;
     for (const std::uint32_t t : triangles) {
       world_.triangleParts.push_back(static_cast<std::uint32_t>(world_.parts.size()));
       for (int k = 0; k < 3; ++k) {
@@ -68,6 +69,7 @@ class PartWriter {
  private:
   void appendVertex(const WorldPrimitive& primitive, const dmat3& linear, std::uint32_t v) {
     const MeshPrimitive& source = *primitive.source;
+    world_.sourceVertices.push_back(v);
     world_.positions.push_back(primitive.positions[v]);
     world_.normals.push_back(primitive.normals[v]);
     vec4 tangent(0);
@@ -149,9 +151,11 @@ std::vector<WorldPrimitive> collectPrimitives(const Scene& scene, const Reflecto
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     if (instance.mesh < 0) continue;
+    std::uint32_t number = 0;
     for (const MeshPrimitive& source : scene.meshes[std::size_t(instance.mesh)].primitives) {
       WorldPrimitive primitive;
       primitive.instance = i;
+      primitive.number = number++;
       primitive.source = &source;
       primitive.material = source.material >= 0 ? source.material : int(scene.materials.size()) - 1;
       dropped += transformPrimitive(primitive, instance.worldFromMesh);
@@ -168,7 +172,21 @@ std::vector<WorldPrimitive> collectPrimitives(const Scene& scene, const Reflecto
   return primitives;
 }
 
-/// The vertices of a part as a mesh of its own; indices start at 0.
+/// Shape and measures, from the vertices of the part as a mesh of its own; indices start at 0.
+void measurePart(const Scene& scene, const WorldGeometry& world, const Part& part,
+                 const ReflectorOptions& options, Reflector& reflector) {
+  const Instance& instance = scene.instances[part.object];
+  const Material none, &material = part.material < 0 ? none : scene.materials[std::size_t(part.material)];
+  std::vector<std::uint32_t> indices(world.indices.begin() + part.firstIndex,
+                                     world.indices.begin() + part.firstIndex + part.indexCount);
+  for (std::uint32_t& index : indices) index -= part.firstVertex;
+  const geometry::MeshView mesh{std::span(world.positions).subspan(part.firstVertex, part.vertexCount),
+                                std::span(world.normals).subspan(part.firstVertex, part.vertexCount),
+                                indices};
+  measureReflector(reflector, mesh, instance.hint.shape ? instance.hint.shape : material.hint.shape,
+                   material.normalTexture.texture >= 0, options);
+}
+
 Reflector makeReflector(const Scene& scene, const WorldGeometry& world, const Part& part,
                         const ReflectorDecision& decision, const std::string& name,
                         const ReflectorOptions& options) {
@@ -179,17 +197,8 @@ Reflector makeReflector(const Scene& scene, const WorldGeometry& world, const Pa
   reflector.clearcoat = decision.clearcoat;
   reflector.object = part.object;
   reflector.material = part.material;
-  const Material none, &material = part.material < 0 ? none : scene.materials[std::size_t(part.material)];
-  reflector.doubleSided = material.doubleSided;
-  const Instance& instance = scene.instances[part.object];
-  std::vector<std::uint32_t> indices(world.indices.begin() + part.firstIndex,
-                                     world.indices.begin() + part.firstIndex + part.indexCount);
-  for (std::uint32_t& index : indices) index -= part.firstVertex;
-  const geometry::MeshView mesh{std::span(world.positions).subspan(part.firstVertex, part.vertexCount),
-                                std::span(world.normals).subspan(part.firstVertex, part.vertexCount),
-                                indices};
-  measureReflector(reflector, mesh, instance.hint.shape ? instance.hint.shape : material.hint.shape,
-                   material.normalTexture.texture >= 0, options);
+  reflector.doubleSided = part.material >= 0 && scene.materials[std::size_t(part.material)].doubleSided;
+  measurePart(scene, world, part, options, reflector);
   return reflector;
 }
 
@@ -254,6 +263,12 @@ WorldGeometry makeWorldGeometry(const Scene& scene, const ReflectorOptions& opti
     emitPrimitive(scene, primitive, names, keep, options, writer, world);
   markShell(scene, world);
   return world;
+}
+
+void measureReflectorAgain(const Scene& scene, WorldGeometry& world, std::uint32_t reflector,
+                           const ReflectorOptions& options) {
+  Reflector& r = world.reflectors[reflector];
+  measurePart(scene, world, world.parts[r.part], options, r);
 }
 
 }  // namespace catoptric::scene

@@ -42,6 +42,7 @@ struct Part {
   std::uint32_t firstVertex = 0, vertexCount = 0;  ///< its vertices; not shared with other parts
   int material = -1;
   std::uint32_t object = 0;               ///< index into Scene::instances
+  std::uint32_t primitive = 0;            ///< of that instance's mesh
   std::uint32_t reflector = core::kNoId;  ///< index into WorldGeometry::reflectors
   bool shell = false;                     ///< shell of the room, see methods.md section 6
 };
@@ -49,11 +50,12 @@ struct Part {
 struct WorldGeometry {
   std::vector<vec3> positions;
   std::vector<vec3> normals;
-  std::vector<vec4> tangents;                ///< zero where absent
-  std::vector<vec2> uv0, uv1;                ///< zero where absent
-  std::vector<vec4> colors;                  ///< one where absent
-  std::vector<std::uint32_t> indices;        ///< winding already flipped for negative scales
-  std::vector<std::uint32_t> triangleParts;  ///< part of each triangle
+  std::vector<vec4> tangents;                 ///< zero where absent
+  std::vector<vec2> uv0, uv1;                 ///< zero where absent
+  std::vector<vec4> colors;                   ///< one where absent
+  std::vector<std::uint32_t> indices;         ///< winding already flipped for negative scales
+  std::vector<std::uint32_t> triangleParts;   ///< part of each triangle
+  std::vector<std::uint32_t> sourceVertices;  ///< vertex of the mesh primitive that each vertex was made from
   std::vector<Part> parts;
   std::vector<Reflector> reflectors;
   core::Box bounds;
@@ -77,5 +79,9 @@ struct ReflectorOptions {
 /// never -1 unless the scene has no materials. Deterministic. Throws core::Error("reflector.unknown") when a
 /// name in `options.only` matches nothing.
 [[nodiscard]] WorldGeometry makeWorldGeometry(const Scene& scene, const ReflectorOptions& options = {});
+
+/// Recognises a reflector's shape anew and measures it, after its vertices have moved.
+void measureReflectorAgain(const Scene& scene, WorldGeometry& world, std::uint32_t reflector,
+                           const ReflectorOptions& options);
 
 }  // namespace catoptric::scene

@@ -15,6 +15,7 @@ namespace catoptric::scene {
 /// One primitive of one instance in world space.
 struct WorldPrimitive {
   std::uint32_t instance = 0;
+  std::uint32_t number = 0;  // of the mesh's primitives
   int material = -1;
   const MeshPrimitive* source = nullptr;
   double handedness = 1;  // -1 where the transform mirrors

@@ -25,6 +25,7 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   }
   void setSolver(Solver solver) { solver_ = solver; }
   void prepare(raster::FrameContext&) override {}
+  void geometryChanged() override { prepared_.clear(); }
   void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
               raster::Level& target) override;
 

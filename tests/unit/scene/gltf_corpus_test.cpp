@@ -133,9 +133,6 @@ const std::set<std::string>& acceptedErrors() {
       "ACCESSOR_JOINTS_INDEX_DUPLICATE",
       "ROTATION_NON_UNIT",
       "NODE_MATRIX_NON_TRS",
-      // Key frames are not read.
-      "ACCESSOR_ANIMATION_INPUT_NEGATIVE",
-      "ACCESSOR_ANIMATION_INPUT_NON_INCREASING",
       "ACCESSOR_ANIMATION_SAMPLER_OUTPUT_NON_NORMALIZED_QUATERNION",
       // Unambiguous all the same.
       "MESH_PRIMITIVE_ACCESSOR_UNALIGNED",

@@ -6,6 +6,7 @@
 //   3. Read the buffers, through the URI policy (uri.h, data.h).
 //   4. Choose the scene, compute world matrices, place meshes, cameras and lights (placement.h, mesh.h).
 //   5. Decode the images that materials use (textures.h).
+//   6. Read the key frames of animations and what they drive (motion.h).
 //
 // Everything is charged to one memory budget before it is allocated; nothing recurses over the input; the
 // result depends on the bytes of the file only. docs/gltf.md lists what is supported, refused and repaired.
@@ -15,6 +16,7 @@
 #include "catoptric/scene/gltf/container.h"
 #include "catoptric/scene/gltf/data.h"
 #include "catoptric/scene/gltf/model.h"
+#include "catoptric/scene/gltf/motion.h"
 #include "catoptric/scene/gltf/placement.h"
 #include "catoptric/scene/gltf/textures.h"
 #include "catoptric/scene/gltf_import.h"
@@ -40,6 +42,7 @@ Scene importFrom(gltf::Context& context, std::span<const std::byte> bytes,
   gltf::placeMeshes(data, nodes, worldFromNode, scene);
   gltf::placeCamerasAndLights(data, nodes, worldFromNode, scene);
   gltf::importMaterials(data, scene);
+  gltf::importMotion(data, scene);
   if (scene.instances.empty()) context.warn("the scene has nothing to draw");
   scene.warnings = context.takeWarnings();
   return scene;

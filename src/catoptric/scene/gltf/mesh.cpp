@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "catoptric/scene/gltf/attribute_repair.h"
+#include "catoptric/scene/gltf/deformation_source.h"
 #include "catoptric/scene/gltf/points_lines.h"
 
 namespace catoptric::scene::gltf {
@@ -148,7 +149,8 @@ MeshPrimitive finish(Context& context, VertexStreams&& streams, Indices&& triang
 }
 
 MeshPrimitive makePrimitive(Context& context, VertexStreams&& streams, const Indices& indices,
-                            PrimitiveMode mode, double meshRadius, int material, const std::string& pointer) {
+                            PrimitiveMode mode, double meshRadius, int material, const std::string& pointer,
+                            std::vector<std::uint32_t>& sources) {
   Indices triangles;
   if (mode == PrimitiveMode::Points) {
     streams = thickenPoints(context, streams, indices, meshRadius, pointer, triangles);
@@ -164,7 +166,14 @@ MeshPrimitive makePrimitive(Context& context, VertexStreams&& streams, const Ind
     else
       removeUnusedVertices(context, streams, triangles, pointer);
   }
+  sources = std::move(streams.sources);
   return finish(context, std::move(streams), std::move(triangles), material);
+}
+
+void numberSources(Context& context, VertexStreams& streams, const std::string& pointer) {
+  context.charge(streams.size(), sizeof(std::uint32_t), pointer);
+  streams.sources.resize(streams.size());
+  std::iota(streams.sources.begin(), streams.sources.end(), 0u);
 }
 
 /// Of all vertices that can be drawn.
@@ -188,7 +197,7 @@ bool isUsable(const vec3& p) {
 }
 
 Mesh readMesh(const Data& data, int index, std::span<const float> weights, const SkinPose* skin,
-              int defaultMaterial) {
+              int defaultMaterial, bool keepsDeformation) {
   Context& context = data.context();
   const MeshSource& source = data.model().meshes[std::size_t(index)];
   const auto pointerTo = [&](std::size_t i) { return fmt::format("/meshes/{}/primitives/{}", index, i); };
@@ -206,8 +215,12 @@ Mesh readMesh(const Data& data, int index, std::span<const float> weights, const
     }
     const Indices indices = readIndices(data, primitive, streams[i].size(), pointerTo(i));
     const int material = primitive.material >= 0 ? primitive.material : defaultMaterial;
+    if (keepsDeformation) numberSources(context, streams[i], pointerTo(i));
+    std::vector<std::uint32_t> sources;
     MeshPrimitive made = makePrimitive(context, std::move(streams[i]), indices, primitive.mode, radius,
-                                       material, pointerTo(i));
+                                       material, pointerTo(i), sources);
+    if (keepsDeformation && !sources.empty())
+      made.deformation = readDeformation(data, primitive, sources, skin != nullptr, made);
     if (!made.indices.empty()) mesh.primitives.push_back(std::move(made));
   }
   return mesh;

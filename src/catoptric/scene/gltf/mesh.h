@@ -31,7 +31,8 @@ inline constexpr float kLargestCoordinate = 1e15f;
 
 /// Mesh `index` of the document. Primitives of which nothing is left are omitted; `material` is that of the
 /// file, or `defaultMaterial`.
+/// `keepsDeformation`: an animation may move the vertices; what they are made from is kept beside them.
 [[nodiscard]] Mesh readMesh(const Data& data, int index, std::span<const float> weights, const SkinPose* skin,
-                            int defaultMaterial);
+                            int defaultMaterial, bool keepsDeformation);
 
 }  // namespace catoptric::scene::gltf

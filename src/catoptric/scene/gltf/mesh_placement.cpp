@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "catoptric/scene/gltf/mesh.h"
+#include "catoptric/scene/gltf/motion.h"
 #include "catoptric/scene/gltf/placement.h"
 
 namespace catoptric::scene::gltf {
@@ -34,11 +35,13 @@ class MeshPlacer {
       data_.context().warn(fmt::format(
           "node \"{}\" has a skin but its mesh has no joints; the skin was ignored", printable(node.name)));
     const int mesh = findOrReadMesh(nodeIndex, isSkinned);
+    const Carrier carrier{.node = model_.animations.empty() || isSkinned ? -1 : nodeIndex};
     if (node.instancing.empty()) {
-      addInstance(node, mesh, isSkinned ? dmat4(1.0) : matrix);
+      addInstance(node, mesh, isSkinned ? dmat4(1.0) : matrix, carrier);
       return;
     }
-    for (const dmat4& nodeFromCopy : readCopies(node)) addInstance(node, mesh, matrix * nodeFromCopy);
+    for (const dmat4& nodeFromCopy : readCopies(node))
+      addInstance(node, mesh, matrix * nodeFromCopy, {carrier.node, nodeFromCopy});
   }
 
   /// A file of meshes without nodes: each stands at the origin.
@@ -47,12 +50,25 @@ class MeshPlacer {
     node.name = model_.meshes[std::size_t(meshIndex)].name;
     const MeshSource& source = model_.meshes[std::size_t(meshIndex)];
     scene_.meshes.push_back(
-        readMesh(data_, meshIndex, source.weights, nullptr, int(model_.materials.size())));
-    addInstance(node, int(scene_.meshes.size()) - 1, dmat4(1.0));
+        readMesh(data_, meshIndex, source.weights, nullptr, int(model_.materials.size()), false));
+    addInstance(node, int(scene_.meshes.size()) - 1, dmat4(1.0), {});
   }
 
  private:
-  using Key = std::tuple<int, int, int, std::vector<float>>;  ///< mesh, skin, skinned node, weights
+  /// Mesh, skin, node that skins it or drives its weights, weights.
+  using Key = std::tuple<int, int, int, std::vector<float>>;
+  /// What moves an instance: worldFromMesh = worldFromNode nodeFromMesh; -1 = nothing.
+  struct Carrier {
+    int node = -1;
+    dmat4 nodeFromMesh{1.0};
+  };
+
+  [[nodiscard]] bool hasDrivenWeights(int node) const {
+    for (const AnimationSource& animation : model_.animations)
+      for (const ChannelSource& channel : animation.channels)
+        if (channel.node == node && channel.property == AnimatedProperty::Weights) return true;
+    return false;
+  }
 
   [[nodiscard]] bool hasJoints(int mesh) const {
     for (const Primitive& primitive : model_.meshes[std::size_t(mesh)].primitives)
@@ -64,37 +80,28 @@ class MeshPlacer {
     const Node& node = model_.nodes[std::size_t(nodeIndex)];
     const MeshSource& source = model_.meshes[std::size_t(node.mesh)];
     const std::vector<float>& weights = !node.weights.empty() ? node.weights : source.weights;
-    if (!source.primitives.front().targets.empty())
-      data_.context().warn("morph targets are not animated; the meshes are shown with their default weights");
-    const Key key(node.mesh, isSkinned ? node.skin : -1, isSkinned ? nodeIndex : -1, weights);
+    const bool isDriven = hasDrivenWeights(nodeIndex),
+               isDeformed = isDriven || (isSkinned && !model_.animations.empty());
+    const Key key(node.mesh, isSkinned ? node.skin : -1, isSkinned || isDriven ? nodeIndex : -1, weights);
     const auto [entry, isNew] = meshes_.emplace(key, int(scene_.meshes.size()));
     if (!isNew) return entry->second;
     std::optional<SkinPose> pose;
     if (isSkinned) pose = makePose(nodeIndex);
-    scene_.meshes.push_back(
-        readMesh(data_, node.mesh, weights, pose ? &*pose : nullptr, int(model_.materials.size())));
+    scene_.meshes.push_back(readMesh(data_, node.mesh, weights, pose ? &*pose : nullptr,
+                                     int(model_.materials.size()), isDeformed));
+    if (isDeformed) {
+      scene_.meshes.back().node = nodeIndex;
+      scene_.meshes.back().skin = isSkinned ? node.skin : -1;
+    }
     return entry->second;
   }
 
   SkinPose makePose(int nodeIndex) {
-    data_.context().warn("skins are not animated; skinned meshes are shown in their rest pose");
     const Skin& skin = model_.skins[std::size_t(model_.nodes[std::size_t(nodeIndex)].skin)];
     SkinPose pose{.worldFromVertex = {}, .worldFromNode = worldFromNode_[std::size_t(nodeIndex)]};
-    std::vector<float> inverse;
-    if (skin.inverseBindMatrices >= 0) inverse = data_.readFloats(skin.inverseBindMatrices);
-    data_.context().charge(skin.joints.size(), sizeof(dmat4));
-    for (std::size_t j = 0; j < skin.joints.size(); ++j) {
-      dmat4 jointFromVertex(1.0);
-      for (std::size_t k = 0; k < 16 && !inverse.empty(); ++k)
-        jointFromVertex[int(k / 4)][int(k % 4)] = inverse[16 * j + k];
-      const bool isAffine = jointFromVertex[0][3] == 0 && jointFromVertex[1][3] == 0 &&
-                            jointFromVertex[2][3] == 0 && jointFromVertex[3][3] == 1;
-      if (!isAffine || !isFinite(jointFromVertex))
-        data_.context().fail("gltf.accessor_data",
-                             fmt::format("inverse bind matrix {} is not affine and finite", j),
-                             fmt::format("/accessors/{}", skin.inverseBindMatrices));
-      pose.worldFromVertex.push_back(worldFromNode_[std::size_t(skin.joints[j])] * jointFromVertex);
-    }
+    const std::vector<dmat4> jointFromVertex = readInverseBindMatrices(data_, skin);
+    for (std::size_t j = 0; j < skin.joints.size(); ++j)
+      pose.worldFromVertex.push_back(worldFromNode_[std::size_t(skin.joints[j])] * jointFromVertex[j]);
     return pose;
   }
 
@@ -120,7 +127,7 @@ class MeshPlacer {
     return copies;
   }
 
-  void addInstance(const Node& node, int mesh, const dmat4& worldFromMesh) {
+  void addInstance(const Node& node, int mesh, const dmat4& worldFromMesh, const Carrier& carrier) {
     if (scene_.meshes[std::size_t(mesh)].primitives.empty()) return;
     if (!isFinite(worldFromMesh)) {
       data_.context().warn(fmt::format("node \"{}\" places its mesh beyond all numbers and was left out",
@@ -133,8 +140,12 @@ class MeshPlacer {
       data_.context().charge(primitive.indices.size() / 3, kWorldBytesPerTriangle);
     }
     const std::string& name = !node.name.empty() ? node.name : scene_.meshes[std::size_t(mesh)].name;
-    scene_.instances.push_back(
-        {.name = name, .mesh = mesh, .worldFromMesh = worldFromMesh, .hint = node.hint});
+    scene_.instances.push_back({.name = name,
+                                .mesh = mesh,
+                                .worldFromMesh = worldFromMesh,
+                                .hint = node.hint,
+                                .node = carrier.node,
+                                .nodeFromMesh = carrier.nodeFromMesh});
   }
 
   const Data& data_;

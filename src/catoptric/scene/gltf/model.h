@@ -18,6 +18,7 @@
 #include "catoptric/scene/gltf/container.h"
 #include "catoptric/scene/gltf/element.h"
 #include "catoptric/scene/material.h"
+#include "catoptric/scene/motion.h"
 
 namespace catoptric::scene::gltf {
 
@@ -115,10 +116,24 @@ struct Node {
   int parent = -1;
   int mesh = -1, skin = -1, camera = -1, light = -1;
   dmat4 parentFromNode{1.0};
+  dvec3 translation{0}, scale{1};  ///< What parentFromNode is made of, unless given as a matrix.
+  glm::dquat rotation{1, 0, 0, 0};
   bool hasMatrix = false;  ///< Given as a matrix, which must not be animated.
   std::vector<float> weights;
   Attributes instancing;  ///< EXT_mesh_gpu_instancing: TRANSLATION, ROTATION, SCALE.
   ReflectorHint hint;
+};
+
+struct ChannelSource {
+  int node = -1, input = -1, output = -1;  ///< Input and output are accessors.
+  AnimatedProperty property = AnimatedProperty::Translation;
+  Interpolation interpolation = Interpolation::Linear;
+  std::size_t width = 3;  ///< Floats in a value.
+};
+
+struct AnimationSource {
+  std::string name;
+  std::vector<ChannelSource> channels;  ///< Those that drive something we know.
 };
 
 struct Skin {
@@ -158,6 +173,7 @@ struct Model {
   std::vector<Node> nodes;
   std::vector<int> roots;  ///< Nodes without parent, ascending.
   std::vector<SceneSource> scenes;
+  std::vector<AnimationSource> animations;  ///< Those with channels.
   int defaultScene = -1;
   bool quantized = false;  ///< KHR_mesh_quantization is declared.
 };

@@ -20,19 +20,25 @@ dmat4 readMatrix(const Element& element) {
   return glm::make_mat4(m.data());
 }
 
-dmat4 readTransform(Context& context, const Element& element) {
-  if (element.has("matrix")) return readMatrix(element);
+void readTransform(Context& context, const Element& element, Node& node) {
+  node.hasMatrix = element.has("matrix");
+  if (node.hasMatrix) {
+    node.parentFromNode = readMatrix(element);
+    return;
+  }
   const auto t = element.findNumbers<3>("translation", {0, 0, 0});
   const auto r = element.findNumbers<4>("rotation", {0, 0, 0, 1});
   const auto s = element.findNumbers<3>("scale", {1, 1, 1});
-  glm::dquat rotation(r[3], r[0], r[1], r[2]);
+  const glm::dquat rotation(r[3], r[0], r[1], r[2]);
   const double length = glm::length(rotation);
   if (!(length > 1e-6))
     element.find("rotation")->fail("gltf.value", "a rotation must be a unit quaternion, this one is zero");
   if (std::abs(length - 1) > 1e-2) context.count(Repair::Rotation);
-  rotation = rotation / length;
-  const dmat4 translated = glm::translate(dmat4(1.0), dvec3(t[0], t[1], t[2]));
-  return glm::scale(translated * glm::mat4_cast(rotation), dvec3(s[0], s[1], s[2]));
+  node.translation = dvec3(t[0], t[1], t[2]);
+  node.rotation = rotation / length;
+  node.scale = dvec3(s[0], s[1], s[2]);
+  node.parentFromNode =
+      glm::scale(glm::translate(dmat4(1.0), node.translation) * glm::mat4_cast(node.rotation), node.scale);
 }
 
 /// EXT_mesh_gpu_instancing: TRANSLATION VEC3, ROTATION VEC4, SCALE VEC3, equally many.
@@ -86,8 +92,7 @@ void readNode(Context& context, const Element& element, Model& model, std::size_
     node.light = light->getIndex("light", model.lights.size(), "light");
   if (node.skin >= 0 && node.mesh < 0)
     element.find("skin")->fail("gltf.missing", "a node with a skin needs a mesh");
-  node.hasMatrix = element.has("matrix");
-  node.parentFromNode = readTransform(context, element);
+  readTransform(context, element, node);
   readWeights(element, model, node);
   if (const auto instancing = element.findExtension("EXT_mesh_gpu_instancing"); instancing && node.mesh >= 0)
     node.instancing = readInstancing(context, *instancing, model);

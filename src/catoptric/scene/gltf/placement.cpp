@@ -58,7 +58,7 @@ void makeDistant(Camera& camera, const dvec3& forward, double halfHeight) {
 }
 
 void placeCamera(Context& context, const CameraSource& source, const Node& node, const dmat4& matrix,
-                 const core::Box& bounds, Scene& scene) {
+                 const core::Box& bounds, int motionNode, Scene& scene) {
   const std::optional<dvec3> forward = unit(-dvec3(matrix[2])), upward = unit(dvec3(matrix[1]));
   if (!isFinite(matrix) || !forward || !upward || !unit(glm::cross(*forward, *upward))) {
     context.warn(fmt::format("the camera of node \"{}\" has no usable direction and was left out",
@@ -74,6 +74,7 @@ void placeCamera(Context& context, const CameraSource& source, const Node& node,
   const double targetDistance = depth > 0 && std::isfinite(depth) ? depth : 1.0;
   camera.target = camera.eye + targetDistance * *forward;
   camera.fovYRadians = source.fovYRadians;
+  camera.node = motionNode;
   if (source.orthographic) {
     context.warn(fmt::format("the orthographic camera \"{}\" is shown as a distant perspective camera",
                              printable(camera.name)));
@@ -83,7 +84,7 @@ void placeCamera(Context& context, const CameraSource& source, const Node& node,
 }
 
 void placeLight(Context& context, const LightSource& source, const Node& node, const dmat4& matrix,
-                Scene& scene) {
+                int motionNode, Scene& scene) {
   const std::optional<dvec3> direction = unit(-dvec3(matrix[2]));
   if (!isFinite(matrix) || (!direction && source.type != "point")) {
     context.warn(fmt::format("the light of node \"{}\" has no usable direction and was left out",
@@ -95,6 +96,7 @@ void placeLight(Context& context, const LightSource& source, const Node& node, c
                : source.type == "spot"      ? LightType::Spot
                                             : LightType::Point;
   light.color = source.color;
+  light.node = motionNode;
   light.position = vec3(dvec3(matrix[3]));
   if (direction) light.direction = vec3(*direction);
   light.range = source.range;
@@ -155,10 +157,12 @@ void placeCamerasAndLights(const Data& data, const std::vector<int>& nodes,
   for (const int i : nodes) {
     const Node& node = model.nodes[std::size_t(i)];
     const dmat4& matrix = worldFromNode[std::size_t(i)];
+    const int motionNode = model.animations.empty() ? -1 : i;
     if (node.camera >= 0)
-      placeCamera(data.context(), model.cameras[std::size_t(node.camera)], node, matrix, bounds, scene);
+      placeCamera(data.context(), model.cameras[std::size_t(node.camera)], node, matrix, bounds, motionNode,
+                  scene);
     if (node.light >= 0)
-      placeLight(data.context(), model.lights[std::size_t(node.light)], node, matrix, scene);
+      placeLight(data.context(), model.lights[std::size_t(node.light)], node, matrix, motionNode, scene);
   }
 }
 

@@ -154,6 +154,7 @@ VertexStreams reorder(const VertexStreams& streams, std::span<const std::uint32_
           .tangents = pick(streams.tangents, order),
           .uv = {pick(streams.uv[0], order), pick(streams.uv[1], order)},
           .colors = pick(streams.colors, order),
+          .sources = pick(streams.sources, order),
           .flipWinding = streams.flipWinding};
 }
 
@@ -164,6 +165,7 @@ std::size_t bytesPerVertex(const VertexStreams& streams) {
   for (const auto& uv : streams.uv)
     if (!uv.empty()) bytes += sizeof(vec2);
   if (!streams.colors.empty()) bytes += sizeof(vec4);
+  if (!streams.sources.empty()) bytes += sizeof(std::uint32_t);
   return bytes;
 }
 

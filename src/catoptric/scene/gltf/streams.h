@@ -23,7 +23,8 @@ struct VertexStreams {
   std::vector<vec4> tangents;
   std::vector<vec2> uv[2];
   std::vector<vec4> colors;
-  bool flipWinding = false;  ///< The skin mirrors.
+  std::vector<std::uint32_t> sources;  ///< Which vertex of the file each was; empty: not kept.
+  bool flipWinding = false;            ///< The skin mirrors.
 
   [[nodiscard]] std::size_t size() const { return positions.size(); }
 };

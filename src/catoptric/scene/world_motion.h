@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Moves a scene and its world geometry to a time: instances, cameras and lights follow their nodes, meshes
+// are morphed and skinned, reflectors are measured anew (plane, shape, extent). Vertices and triangles keep
+// their places in the world arrays; nothing is computed ahead.
+//
+// Departures: which triangles are mirrors, how they fall into pieces and what belongs to the shell stays as
+// it was at rest. Cost: linear in what moves, on all cores; nothing is allocated after the first call, but
+// for the measures of moving reflectors.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "catoptric/scene/deformation.h"
+#include "catoptric/scene/pose.h"
+#include "catoptric/scene/scene.h"
+#include "catoptric/scene/world_geometry.h"
+
+namespace catoptric::scene {
+
+class WorldMotion {
+ public:
+  /// `world` was made from `scene` in its rest pose with `options`; both must outlive the object.
+  /// `animation`: see chooseAnimations().
+  WorldMotion(Scene& scene, WorldGeometry& world, const ReflectorOptions& options,
+              const std::string& animation = {});
+
+  /// Before the first and after the last key frame everything stands still.
+  void setTime(double timeS);
+
+  /// Parts whose vertices setTime() writes, ascending: the same at each time.
+  [[nodiscard]] std::span<const std::uint32_t> movingParts() const { return movingParts_; }
+  [[nodiscard]] const MotionChoice& choice() const { return choice_; }
+
+ private:
+  struct RestCamera {
+    Camera camera;
+    dmat4 nodeFromWorld;
+  };
+  struct RestLight {
+    Light light;
+    dmat4 nodeFromWorld;
+  };
+  void findMovingNodes();
+  [[nodiscard]] bool moves(int node) const { return node >= 0 && nodeMoves_[std::size_t(node)]; }
+  [[nodiscard]] bool isDeformed(const Mesh& mesh) const;
+  void placeInstances();
+  void placeCamerasAndLights();
+  void deformMeshes();
+  void writePart(const Part& part);
+  void turnWinding(const Part& part);
+
+  Scene& scene_;
+  WorldGeometry& world_;
+  ReflectorOptions options_;
+  MotionChoice choice_;
+  Pose pose_;
+  std::vector<bool> nodeMoves_, meshDeforms_;
+  std::vector<std::uint32_t> movingParts_;
+  std::vector<std::vector<DeformedVertices>> deformed_;  ///< by mesh and primitive
+  std::vector<dmat4> worldFromVertex_;                   ///< of the joints of one skin
+  std::vector<bool> wasMirroring_;                       ///< of each instance, at the time before
+  std::vector<RestCamera> restCameras_;
+  std::vector<RestLight> restLights_;
+};
+
+}  // namespace catoptric::scene
