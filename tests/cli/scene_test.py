@@ -8,7 +8,8 @@ import unittest
 import support
 
 BUILT_IN = {"four-spheres", "cylinder", "fender", "polyhedra-and-sphere", "checker-box", "hall-of-mirrors",
-            "drivers-view", "concave-bowl", "mask", "mixed", "tv", "cone", "vase", "wavy-wall"}
+            "drivers-view", "concave-bowl", "mask", "mixed", "tv", "cone", "vase", "wavy-wall",
+            "columns"}
 
 
 class Info(support.CommandTest):

@@ -200,6 +200,7 @@ const Expected kExpected[] = {
     {"cone", {{ReflectorShape::Cone, 1}}},
     {"vase", {{ReflectorShape::Mesh, 1}}, false},
     {"wavy-wall", {{ReflectorShape::Extrusion, 1}}, false},
+    {"columns", {{ReflectorShape::Sphere, 1}}},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedScene, testing::ValuesIn(kExpected), [](const auto& param) {

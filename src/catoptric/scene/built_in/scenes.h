@@ -20,5 +20,6 @@ namespace catoptric::scene::built_in {
 [[nodiscard]] Scene makeCone();
 [[nodiscard]] Scene makeVase();
 [[nodiscard]] Scene makeWavyWall();
+[[nodiscard]] Scene makeColumns();
 
 }  // namespace catoptric::scene::built_in
