@@ -19,7 +19,7 @@ constexpr int kMostRepeats = 10000;
 
 struct Options {
   std::string source;
-  std::vector<MethodVariant> variants = methodVariants();
+  std::vector<MethodVariant> variants = defaultVariants();
   int repeats = 10;
   SceneOptions scene;
   CameraOptions camera;
@@ -50,6 +50,8 @@ Json makeRow(const MethodVariant& variant, const renderer::FrameOptions& frame, 
           {"virtual_triangles", times.counters.virtualTriangles},
           {"fragment_tests", times.counters.fragmentTests},
           {"virtual_vertices_per_s", rate(times.virtualVerticesPerS)},
+          {"dynamic_vertices_per_s", rate(times.dynamicVerticesPerS)},
+          {"static_vertices_per_s", rate(times.staticVerticesPerS)},
           {"rays", times.counters.rays},
           {"rays_per_s", rate(times.raysPerS)}};
 }
@@ -120,10 +122,11 @@ Command makeBenchCommand() {
                                  Arguments::Count::ExactlyOne, setText(options->source));
             arguments.group("Timing");
             arguments.option(
-                "--methods", "A,B,C", "Which ones: " + listMethodNames() + "; default: all",
+                "--methods", "A,B,C", "Which ones: " + listMethodNames() + "; default: all but morphing",
                 [options](const std::string& text) { options->variants = parseMethodList(text); });
             arguments.option("--repeat", "N", "Frames of each method; default 10",
                              setInteger("--repeat", options->repeats, 1, kMostRepeats));
+            declareBaked(arguments, options->picture.frame);
             declarePicture(arguments, options->picture);
             declareCamera(arguments, options->camera);
             declareScene(arguments, options->scene);

@@ -41,7 +41,8 @@ std::vector<std::string> withViewCommand(std::vector<std::string> line) {
 
 int runCommand(const std::vector<std::string>& line) {
   const std::vector<Command> commands{makeInfoCommand(),  makeRenderCommand(), makeCompareCommand(),
-                                      makeBenchCommand(), makeScenesCommand(), makeViewCommand()};
+                                      makeBenchCommand(), makeBakeCommand(),   makeScenesCommand(),
+                                      makeViewCommand()};
   if (line.empty()) {
     setVerbosity(Verbosity::Normal);
     say(makeProgramHelp(commands));

@@ -25,7 +25,7 @@ constexpr int kMostRepeats = 1000;
 struct Options {
   std::vector<std::string> sources;
   std::string folder;
-  std::vector<MethodVariant> variants = methodVariants();
+  std::vector<MethodVariant> variants = defaultVariants();
   int repeats = 3;
   bool allCameras = false;
   Limits limits;
@@ -149,11 +149,12 @@ void declare(Arguments& arguments, const std::shared_ptr<Options>& options) {
   arguments.group("Comparison");
   arguments.option("-o,--output", "DIR", "Folder for index.html, report.json and the pictures",
                    setText(options->folder));
-  arguments.option("--methods", "A,B,C", "Which ones: " + listMethodNames() + "; default: all",
+  arguments.option("--methods", "A,B,C", "Which ones: " + listMethodNames() + "; default: all but morphing",
                    [options](const std::string& text) { options->variants = parseMethodList(text); });
   arguments.option("--repeat", "N", "Frames of each method that are timed; default 3",
                    setInteger("--repeat", options->repeats, 1, kMostRepeats));
   arguments.flag("--all-cameras", "Compare from each camera of the scene", options->allCameras);
+  declareBaked(arguments, options->picture.frame);
   declareLimits(arguments, options->limits);
   declarePicture(arguments, options->picture);
   declareCamera(arguments, options->camera);

@@ -144,6 +144,10 @@ std::string makeReflectorTable(const LoadedScene& loaded) {
 
 int run(const Options& options) {
   applyOutput(options.output);
+  if (isBakedFile(options.source)) {
+    describeBakedFile(options.source, options.output.json);
+    return 0;
+  }
   const auto loaded = loadScene(options.source, options.scene);
   if (!options.output.json.empty()) {
     Json document = makeDocument("info", nullptr);
@@ -166,7 +170,8 @@ Command makeInfoCommand() {
               "  catoptric info scene.glb --reflector-roughness 0.1\n",
           .declare =
               [options](Arguments& arguments) {
-                arguments.positional("SCENE", "A .gltf or .glb file, '-', or a built-in scene",
+                arguments.positional("SCENE",
+                                     "A .gltf or .glb file, '-', a built-in scene, or a file of bake",
                                      Arguments::Count::ExactlyOne, setText(options->source));
                 declareScene(arguments, options->scene);
                 declareOutput(arguments, options->output);

@@ -22,7 +22,7 @@ double quantile(std::vector<double> values, double share) {
 }
 
 FrameTimes summarise(const std::vector<renderer::FrameTimings>& frames,
-                     const renderer::FrameCounters& counters) {
+                     const renderer::FrameCounters& counters, bool isMorphing) {
   const auto collect = [&](double renderer::FrameTimings::*member) {
     std::vector<double> values;
     values.reserve(frames.size());
@@ -37,6 +37,11 @@ FrameTimes summarise(const std::vector<renderer::FrameTimings>& frames,
   times.reflectionMs = quantile(collect(&renderer::FrameTimings::reflectionMs), 0.5);
   const double verticesMs = quantile(collect(&renderer::FrameTimings::virtualVerticesMs), 0.5);
   if (verticesMs > 0) times.virtualVerticesPerS = double(counters.virtualVertices) / (0.001 * verticesMs);
+  const double lookUpMs = quantile(collect(&renderer::FrameTimings::lookUpMs), 0.5);
+  if (counters.lookedUpVertices > 0)
+    times.dynamicVerticesPerS = double(counters.lookedUpVertices) / (0.001 * (lookUpMs + verticesMs));
+  else if (isMorphing && verticesMs > 0)
+    times.staticVerticesPerS = double(counters.virtualVertices) / (0.001 * verticesMs);
   if (times.medianMs > 0) times.raysPerS = double(counters.rays) / (0.001 * times.medianMs);
   times.counters = counters;
   return times;
@@ -60,8 +65,19 @@ const std::vector<MethodVariant>& methodVariants() {
        Solver::Analytic, true},
       {"virtual-exact", "virtual objects, each fragment tested by its ray", Method::Virtual, Solver::Exact,
        true},
+      {"morphing", "reflection morphing, vertices kept while the eye stays in its cell", Method::Morphing,
+       Solver::Auto, true, false, false},
+      {"morphing-dynamic", "reflection morphing, every vertex looked up in every frame", Method::Morphing,
+       Solver::Auto, true, true, false},
       {"raytrace", "ray-traced truth", Method::RayTrace, Solver::Auto, true}};
   return variants;
+}
+
+std::vector<MethodVariant> defaultVariants() {
+  std::vector<MethodVariant> chosen;
+  for (const MethodVariant& variant : methodVariants())
+    if (variant.byDefault) chosen.push_back(variant);
+  return chosen;
 }
 
 std::string listMethodNames() {
@@ -90,6 +106,7 @@ renderer::FrameOptions withMethod(renderer::FrameOptions options, const MethodVa
   options.method = variant.method;
   options.solver = variant.solver;
   options.boxCorrected = variant.boxCorrected;
+  options.allDynamic = variant.allDynamic;
   return options;
 }
 
@@ -109,7 +126,8 @@ std::vector<FrameTimes> timeInTurn(renderer::Renderer& renderer, const scene::Ca
       progress.advance();
     }
   std::vector<FrameTimes> times;
-  for (std::size_t i = 0; i < variants.size(); ++i) times.push_back(summarise(frames[i], counters[i]));
+  for (std::size_t i = 0; i < variants.size(); ++i)
+    times.push_back(summarise(frames[i], counters[i], variants[i].method == Method::Morphing));
   return times;
 }
 

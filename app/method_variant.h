@@ -21,11 +21,15 @@ struct MethodVariant {
   renderer::Method method = renderer::Method::Auto;
   renderer::Solver solver = renderer::Solver::Auto;
   bool boxCorrected = true;
+  bool allDynamic = false;  ///< of morphing
+  bool byDefault = true;    ///< false: only where it is named
 };
 
 /// Slowest-looking last: none, environment-plain, environment, virtual-explosion, virtual-layered,
-/// virtual-refined, virtual-analytic, virtual-exact, raytrace.
+/// virtual-refined, virtual-analytic, virtual-exact, morphing, morphing-dynamic, raytrace.
 [[nodiscard]] const std::vector<MethodVariant>& methodVariants();
+/// Those that are drawn where none is named.
+[[nodiscard]] std::vector<MethodVariant> defaultVariants();
 
 /// --methods A,B,C. Throws UsageError for a name that is not there or is there twice.
 [[nodiscard]] std::vector<MethodVariant> parseMethodList(const std::string& text);
@@ -36,9 +40,10 @@ struct MethodVariant {
 /// Many frames of one variant.
 struct FrameTimes {
   int frames = 0;
-  double medianMs = 0, p95Ms = 0;                ///< of the whole frame
-  double primaryMs = 0, reflectionMs = 0;        ///< medians of its parts
-  double virtualVerticesPerS = 0, raysPerS = 0;  ///< 0 where the variant has none; from the medians
+  double medianMs = 0, p95Ms = 0;                          ///< of the whole frame
+  double primaryMs = 0, reflectionMs = 0;                  ///< medians of its parts
+  double virtualVerticesPerS = 0, raysPerS = 0;            ///< 0 where the variant has none; from the medians
+  double dynamicVerticesPerS = 0, staticVerticesPerS = 0;  ///< of morphing
   renderer::FrameCounters counters;
 };
 

@@ -16,15 +16,15 @@ namespace {
 
 constexpr int kMostBounces = 16, kMostSamples = 1024, kMostThreads = 1024;
 
-const std::vector<renderer::Method> kMethods{renderer::Method::Auto, renderer::Method::None,
+const std::vector<renderer::Method> kMethods{renderer::Method::Auto,        renderer::Method::None,
                                              renderer::Method::Environment, renderer::Method::Virtual,
-                                             renderer::Method::RayTrace};
+                                             renderer::Method::Morphing,    renderer::Method::RayTrace};
 const std::vector<renderer::Solver> kSolvers{renderer::Solver::Auto,     renderer::Solver::Explosion,
                                              renderer::Solver::Layered,  renderer::Solver::Refined,
                                              renderer::Solver::Analytic, renderer::Solver::Subdivision,
                                              renderer::Solver::Exact};
 // Words that are planned (docs/methods.md); they get an answer of their own.
-const std::vector<std::string> kPlannedMethods{"morphing", "zexel"};
+const std::vector<std::string> kPlannedMethods{"zexel"};
 const std::vector<std::string> kPlannedSolvers{};
 
 /// The value whose name was typed.
@@ -133,9 +133,15 @@ void declarePicture(Arguments& arguments, PictureOptions& options) {
       [&](const std::string& text) { options.exposure = float(parseNumber("--exposure", text, 1e-6, 1e6)); });
 }
 
+void declareBaked(Arguments& arguments, renderer::FrameOptions& options) {
+  arguments.option("--baked", "FILE",
+                   "Of the morphing method: file of 'catoptric bake'; default: bake at the eye",
+                   setText(options.bakedFile));
+}
+
 void declareMethod(Arguments& arguments, renderer::FrameOptions& options, bool& plainMap) {
   arguments.group("Method");
-  arguments.option("--method", "NAME", "auto (default), none, environment, virtual, raytrace",
+  arguments.option("--method", "NAME", "auto (default), none, environment, virtual, morphing, raytrace",
                    [&](const std::string& text) {
                      options.method =
                          choose("--method", text, kMethods, renderer::methodName, kPlannedMethods);
@@ -146,6 +152,7 @@ void declareMethod(Arguments& arguments, renderer::FrameOptions& options, bool& 
       [&](const std::string& text) {
         options.solver = choose("--solver", text, kSolvers, renderer::solverName, kPlannedSolvers);
       });
+  declareBaked(arguments, options);
   arguments.flag("--plain-environment-map", "No parallax correction by the box of the room", plainMap);
 }
 

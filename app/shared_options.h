@@ -45,7 +45,9 @@ void declareMotion(Arguments& arguments, SceneOptions& options);
 void declareCamera(Arguments& arguments, CameraOptions& options);
 /// What is drawn however it is drawn: --size, --bounces, --samples, ...
 void declarePicture(Arguments& arguments, PictureOptions& options);
-/// --method, --solver, --plain-environment-map (FrameOptions::boxCorrected is its opposite).
+/// --baked
+void declareBaked(Arguments& arguments, renderer::FrameOptions& options);
+/// --method, --solver, --baked, --plain-environment-map (FrameOptions::boxCorrected is its opposite).
 void declareMethod(Arguments& arguments, renderer::FrameOptions& options, bool& plainMap);
 
 /// Verbosity and threads; call it first in a command.

@@ -11,9 +11,10 @@ import support
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 PAGES = ("docs/command-line.md", "docs/quick-start.md", "README.md")
-EXAMPLE = re.compile(r"^(?: {2,}|\$ )?((?:build/release/)?catoptric (?:info|render|compare|bench|scenes|--version)\b[^|>#\n]*)",
+EXAMPLE = re.compile(r"^(?: {2,}|\$ )?((?:build/release/)?catoptric (?:info|render|compare|bench|bake|scenes|--version)\b[^|>#\n]*)",
                      re.M)
-BUILT_IN = ("four-spheres", "cylinder", "fender", "polyhedra-and-sphere", "hall-of-mirrors", "drivers-view")
+BUILT_IN = ("four-spheres", "cylinder", "fender", "polyhedra-and-sphere", "hall-of-mirrors", "drivers-view",
+            "columns")
 SMALLER = {"render": ("--size", "96x72"), "bench": ("--size", "96x72", "--repeat", "1"),
            "compare": ("--size", "96x72", "--repeat", "1")}
 

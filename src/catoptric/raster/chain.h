@@ -18,6 +18,7 @@ struct Chain {
   std::uint32_t parent = 0;             ///< id of the chain without its last mirror
   int level = 0;                        ///< number of mirrors
   std::uint32_t last = core::kNoId;     ///< reflector
+  std::vector<std::uint32_t> mirrors;   ///< all of its reflectors, from the eye on
   std::optional<std::uint32_t> curved;  ///< the one curved reflector, if any
   bool hasSecondCurved = false;         ///< then only an environment map can show it
   dmat4 screenFromDraw{1.0};  ///< planar mirrors before the curved one (all of them if there is none)
@@ -41,6 +42,7 @@ struct Chain {
   next.parent = chain.id;
   next.level = chain.level + 1;
   next.last = reflector;
+  next.mirrors.push_back(reflector);
   const scene::Reflector& mirror = world.reflectors[reflector];
   if (mirror.shape == scene::ReflectorShape::Plane) {
     const dmat4 m = core::makeReflectionMatrix(mirror.plane);

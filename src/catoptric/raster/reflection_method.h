@@ -15,6 +15,8 @@ struct MethodCounters {
   std::uint64_t virtualTriangles = 0;
   std::uint64_t fragmentTests = 0;
   double virtualVerticesMs = 0;
+  std::uint64_t lookedUpVertices = 0;  ///< of morphing: searched in the octrees, the others were kept
+  double lookUpMs = 0;
 };
 
 /// What a method gets to work with in one frame.

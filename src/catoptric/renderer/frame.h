@@ -23,7 +23,7 @@
 namespace catoptric::renderer {
 
 /// How reflections are made. None: mirrors show the environment only, as they do after the last bounce.
-enum class Method { Auto, None, Environment, Virtual, RayTrace };
+enum class Method { Auto, None, Environment, Virtual, Morphing, RayTrace };
 /// How the Virtual method finds reflection points on curved mirrors; Exact tests fragments instead.
 enum class Solver { Auto, Explosion, Layered, Refined, Exact, Analytic, Subdivision };
 
@@ -40,6 +40,8 @@ struct FrameOptions {
   double maxErrorPx = 0.5;   ///< aim of the tessellation of reflected objects
   bool boxCorrected = true;  ///< Environment: parallax-corrected by the box of the room; false: plain
   int environmentMapSize = 512;  ///< Environment: edge of a cube face, texels
+  std::string bakedFile;         ///< Morphing: of `catoptric bake`; empty: baked where the eye is
+  bool allDynamic = false;       ///< Morphing: every vertex counts as moving
   bool withSeen = true;          ///< read back what is seen at each pixel
   /// RayTrace: once it is true, which any thread may make it, the frame ends early and is of no use.
   const std::atomic<bool>* cancel = nullptr;
@@ -50,12 +52,14 @@ struct FrameTimings {
   double primaryMs = 0;          ///< the picture without reflections
   double reflectionMs = 0;       ///< everything else
   double virtualVerticesMs = 0;  ///< of which: finding reflection points, or where triangles may be seen
+  double lookUpMs = 0;           ///< Morphing: look-ups in the octrees, not part of virtualVerticesMs
 };
 
 struct FrameCounters {
   std::uint64_t virtualVertices = 0;   ///< reflection points sought
   std::uint64_t virtualTriangles = 0;  ///< drawn into reflection images
   std::uint64_t fragmentTests = 0;     ///< Exact: pixels that met a triangle offered to them, or did not
+  std::uint64_t lookedUpVertices = 0;  ///< Morphing: searched in the octrees in this frame
   std::uint64_t reflectorsDrawn = 0, reflectorsCulled = 0;
   std::uint64_t rays = 0;  ///< RayTrace only
 };

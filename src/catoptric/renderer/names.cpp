@@ -14,6 +14,8 @@ std::string_view methodName(Method method) {
       return "environment";
     case Method::Virtual:
       return "virtual";
+    case Method::Morphing:
+      return "morphing";
     case Method::RayTrace:
       return "raytrace";
   }

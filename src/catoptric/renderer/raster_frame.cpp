@@ -13,6 +13,7 @@
 #include "catoptric/core/parallel.h"
 #include "catoptric/core/sample_pattern.h"
 #include "catoptric/geometry/mesh_measures.h"
+#include "catoptric/reflection_morphing/baked_file.h"
 
 namespace catoptric::renderer {
 namespace {
@@ -159,12 +160,15 @@ std::vector<raster::Chain> RasterFrame::findChains(const raster::Level& level,
 
 raster::ReflectionMethod* RasterFrame::pickMethod(const raster::Chain& chain, const FrameOptions& options) {
   if (options.method == Method::Environment) return &environment_;
+  const bool isMorphing = options.method == Method::Morphing;
   const bool needsExact =
       chain.hasSecondCurved ||
       (chain.curved && Renderer::chooseMethod(geometry_.reflectors[*chain.curved]).solver == Solver::Exact);
   const bool wantsExact = options.solver == Solver::Exact || (options.solver == Solver::Auto && needsExact);
-  if (wantsExact && exact_.supports(chain)) return &exact_;
-  const std::array<raster::ReflectionMethod*, 3> table{&planar_, &virtual_, &environment_};
+  if (!isMorphing && wantsExact && exact_.supports(chain)) return &exact_;
+  raster::ReflectionMethod* curved = &virtual_;
+  if (isMorphing) curved = &morphing_;
+  const std::array<raster::ReflectionMethod*, 3> table{&planar_, curved, &environment_};
   for (raster::ReflectionMethod* candidate : table)
     if (candidate->supports(chain)) return candidate;
   return nullptr;
@@ -191,6 +195,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   virtual_.prepare(context);
   exact_.prepare(context);
   environment_.prepare(context);
+  if (options.method == Method::Morphing) morphing_.prepare(context);
   std::vector<raster::Chain> parents{raster::makeEyeChain()};
   int levelCount = 1;
   std::uint64_t visibleReflectors = 0;
@@ -217,6 +222,8 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   context_.finish();
   context_.check("a frame");
   frame.timings.totalMs += millisecondsSince(start);
+  frame.timings.lookUpMs += counters.lookUpMs;
+  frame.counters.lookedUpVertices += counters.lookedUpVertices;
   frame.timings.virtualVerticesMs += counters.virtualVerticesMs;
   frame.timings.reflectionMs = frame.timings.totalMs - frame.timings.primaryMs;
   frame.counters.virtualVertices += counters.virtualVertices;
@@ -224,6 +231,23 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   frame.counters.fragmentTests += counters.fragmentTests;
   frame.counters.reflectorsDrawn = visibleReflectors;
   frame.counters.reflectorsCulled = geometry_.reflectors.size() - visibleReflectors;
+}
+
+void RasterFrame::prepareMorphing(const FrameOptions& options) {
+  morphing_.setDynamic(options.allDynamic);
+  const std::string name =
+      options.bakedFile.empty() ? "bounces " + std::to_string(options.bounces) : "file " + options.bakedFile;
+  if (morphing_.hasSource() && name == morphingSource_) return;
+  if (options.bakedFile.empty()) {
+    reflection_morphing::BakePlan plan = reflection_morphing::makeDefaultPlan(geometry_);
+    plan.options.map.bounces = std::max(options.bounces, 1);
+    morphing_.setSource(std::make_shared<reflection_morphing::OnTheFly>(geometry_, plan));
+  } else {
+    const auto file = std::make_shared<reflection_morphing::BakedFile>(options.bakedFile);
+    file->checkScene(geometry_);
+    morphing_.setSource(file);
+  }
+  morphingSource_ = name;
 }
 
 void RasterFrame::readSeen(const raster::Level& level, Frame& frame) const {
@@ -254,6 +278,7 @@ Frame RasterFrame::render(const scene::CameraFrame& camera, const FrameOptions& 
   const int samples = std::max(1, options.samples);
   prepareLevels(1, options.widthPx, options.heightPx);
   virtual_.setSolver(virtualObjectSolver(options.solver));
+  if (options.method == Method::Morphing) prepareMorphing(options);
   environment_.setOptions(options.environmentMapSize, options.boxCorrected);
   frame.radiance = core::ImageRgbaF(options.widthPx, options.heightPx, vec4(0, 0, 0, 1));
   const raster::Level& level = *levels_[0];

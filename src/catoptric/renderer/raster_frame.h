@@ -8,6 +8,7 @@
 #include "catoptric/environment_map/environment_map_method.h"
 #include "catoptric/gl/context.h"
 #include "catoptric/planar_mirror/planar_mirror_method.h"
+#include "catoptric/reflection_morphing/reflection_morphing_method.h"
 #include "catoptric/renderer/frame.h"
 #include "catoptric/virtual_object/exact/exact_method.h"
 #include "catoptric/virtual_object/virtual_object_method.h"
@@ -32,6 +33,8 @@ class RasterFrame {
   [[nodiscard]] std::vector<raster::Chain> findChains(const raster::Level& level,
                                                       const std::vector<raster::Chain>& parents);
   [[nodiscard]] raster::ReflectionMethod* pickMethod(const raster::Chain& chain, const FrameOptions& options);
+  /// Opens the baked file, or makes ready to bake where the eye is.
+  void prepareMorphing(const FrameOptions& options);
   void readSeen(const raster::Level& level, Frame& frame) const;
 
   gl::Context& context_;
@@ -44,6 +47,8 @@ class RasterFrame {
   virtual_object::VirtualObjectMethod virtual_;
   virtual_object::ExactMethod exact_;
   environment_map::EnvironmentMapMethod environment_;
+  reflection_morphing::ReflectionMorphingMethod morphing_;
+  std::string morphingSource_;  ///< what morphing_ has its locations from
   std::vector<std::unique_ptr<raster::Level>> levels_;
   std::vector<uvec2> idsPixels_;
   std::uint32_t lastChain_ = 0;

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// Steps: 1 environment in the mirror direction, 2 morph the vertices, 3 draw the triangles where the level
+// before shows the mirror.
+#include "catoptric/reflection_morphing/reflection_morphing_method.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "catoptric/core/log.h"
+#include "catoptric/core/parallel.h"
+
+namespace catoptric::reflection_morphing {
+namespace {
+
+double millisecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+ReflectionMorphingMethod::Objects::Objects(const scene::WorldGeometry& world, std::uint32_t reflector,
+                                           double maxError)
+    : maxErrorPx(maxError),
+      objects(raster::tessellateForReflector(world, reflector,
+                                             raster::TessellationOptions{.maxErrorPx = maxError})),
+      streams(objects),
+      blendedStreams(objects),
+      virtualPositions(objects.positions.size()),
+      mirrorPoints(objects.positions.size()) {}
+
+void ReflectionMorphingMethod::setSource(std::shared_ptr<const LocationSource> source) {
+  source_ = std::move(source);
+  cell_.reset();
+  locations_.clear();
+  corners_.clear();
+}
+
+void ReflectionMorphingMethod::prepare(raster::FrameContext& frame) {
+  if (!source_) return;
+  const std::optional<SamplingCell> cell = source_->grid().findCell(frame.camera.eye);
+  if (!cell)
+    core::logWarningOnce(
+        "the eye is outside the grid of sampling locations; curved mirrors show environment maps");
+  if (cell && cell_ && cell->locations == cell_->locations) {
+    cell_ = cell;
+    return;
+  }
+  corners_.clear();
+  std::map<std::uint32_t, std::shared_ptr<const SamplingLocation>> kept;
+  std::vector<std::pair<std::uint32_t, std::shared_ptr<const SamplingLocation>>> missing;
+  if (cell)
+    for (const std::uint32_t index : cell->locations) {
+      const auto at = locations_.find(index);
+      if (at == locations_.end())
+        missing.emplace_back(index, nullptr);
+      else
+        kept.insert(*at);
+    }
+  core::parallelFor(missing.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) missing[i].second = source_->load(missing[i].first);
+  });
+  kept.insert(missing.begin(), missing.end());
+  locations_ = std::move(kept);
+  cell_ = cell;
+}
+
+CellTrace ReflectionMorphingMethod::findCellTrace(const std::vector<std::uint32_t>& trace) const {
+  CellTrace found{};
+  if (!cell_) return found;
+  for (std::size_t k = 0; k < 8; ++k) found[k] = locations_.at(cell_->locations[k])->findTrace(trace);
+  return found;
+}
+
+bool ReflectionMorphingMethod::supports(const raster::Chain& chain) const {
+  if (!chain.curved || !cell_) return false;
+  const auto weights = weighTrace(findCellTrace(chain.mirrors), cell_->weights);
+  return std::any_of(weights.begin(), weights.end(), [](float weight) { return weight > 0; });
+}
+
+ReflectionMorphingMethod::Objects& ReflectionMorphingMethod::getObjects(const raster::FrameContext& frame,
+                                                                        std::uint32_t reflector) {
+  std::unique_ptr<Objects>& slot = objects_[reflector];
+  if (!slot || slot->maxErrorPx != frame.maxErrorPx) {
+    slot = std::make_unique<Objects>(frame.scene.geometry(), reflector, frame.maxErrorPx);
+    corners_.clear();
+  }
+  return *slot;
+}
+
+void ReflectionMorphingMethod::morph(raster::FrameContext& frame, const raster::Chain& chain,
+                                     Objects& objects) {
+  const CellTrace trace = findCellTrace(chain.mirrors);
+  CornerPoints& corners = corners_[chain.mirrors];
+  const std::size_t count = objects.objects.positions.size();
+  auto start = std::chrono::steady_clock::now();
+  if (dynamic_ || corners.points.size() != count) {
+    lookUpCorners(trace, objects.objects.positions, corners);
+    frame.counters.lookedUpVertices += count;
+    frame.counters.lookUpMs += millisecondsSince(start);
+  }
+  start = std::chrono::steady_clock::now();
+  morphVertices(vec3(frame.camera.eye), weighTrace(trace, cell_->weights), corners, objects.virtualPositions,
+                objects.mirrorPoints);
+  frame.counters.virtualVertices += count;
+  frame.counters.virtualVerticesMs += millisecondsSince(start);
+}
+
+void ReflectionMorphingMethod::draw(raster::FrameContext& frame, const raster::Chain& chain,
+                                    const raster::Level& parent, raster::Level& target, Objects& o) {
+  o.streams.setDrawPositions(o.virtualPositions);
+  o.streams.setIndices(o.triangles.indices, true);
+  o.opaque.clear();
+  o.blended.clear();
+  for (const raster::TessellatedPart& part : o.triangles.parts)
+    (frame.scene.isBlended(part.part) ? o.blended : o.opaque)
+        .push_back({part.part, part.firstIndex, part.indexCount});
+  const dvec3 eye = frame.camera.eye;
+  raster::SurfaceView view;
+  view.clipFromDraw = raster::makeClipFromWorld(frame.camera, frame.nearPlane, frame.jitterPx);
+  view.eye = view.drawEye = eye;
+  view.windingFlipped = chain.level % 2 == 1;
+  view.chain = &chain;
+  view.parent = &parent;
+  const scene::Reflector& last = frame.scene.geometry().reflectors[chain.last];
+  if (last.shape ==
+      scene::ReflectorShape::Plane) {  // shows what is before it, on the side of the mirror before
+    const dvec3 before = frame.scene.geometry().reflectors[chain.mirrors[chain.mirrors.size() - 2]].centre;
+    const double side = last.plane.signedDistance(before) > 0.0 ? 1.0 : -1.0;
+    view.clipPlane = vec4(vec3(side * last.plane.normal), float(side * last.plane.offset));
+    view.excludedReflector = chain.last;
+  }
+  frame.surfaces.draw(frame.scene, o.streams, o.opaque, view, target);
+  if (o.blended.empty()) return;
+  raster::sortBlendedTriangles(o.blended, o.triangles.indices, o.virtualPositions, eye, o.sortedIndices,
+                               o.sorted);
+  o.blendedStreams.setDrawPositions(o.virtualPositions);
+  o.blendedStreams.setIndices(o.sortedIndices, true);
+  frame.surfaces.drawBlended(frame.scene, o.blendedStreams, o.sorted, view, target);
+}
+
+void ReflectionMorphingMethod::render(raster::FrameContext& frame, const raster::Chain& chain,
+                                      const raster::Level& parent, raster::Level& target) {
+  // 1
+  background_.draw(frame.scene, chain, parent, target);
+
+  // 2
+  const auto& reflectors = frame.scene.geometry().reflectors;
+  const auto lastCurved = std::find_if(chain.mirrors.rbegin(), chain.mirrors.rend(), [&](std::uint32_t r) {
+    return reflectors[r].shape != scene::ReflectorShape::Plane;
+  });
+  Objects& objects = getObjects(frame, *lastCurved);
+  if (objects.objects.indices.empty()) return;
+  morph(frame, chain, objects);
+
+  // 3
+  // After several mirrors the first mirror point says nothing about orientation: points that coincide with
+  // theirs are not judged.
+  const std::span<const vec3> scenePoints =
+      chain.mirrors.size() > 1 ? std::span<const vec3>(objects.mirrorPoints) : std::span<const vec3>();
+  raster::selectVirtualTriangles(objects.objects, frame.camera.eye, objects.virtualPositions,
+                                 corners_[chain.mirrors].kinds, objects.mirrorPoints, objects.triangles,
+                                 scenePoints);
+  frame.counters.virtualTriangles += objects.triangles.indices.size() / 3;
+  draw(frame, chain, parent, target, objects);
+}
+
+}  // namespace catoptric::reflection_morphing

@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""catoptric bake, and drawing from its files."""
+import json
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+import support
+
+BOX = ("--box", "-0.1,1.0,2.2,0.2,1.3,2.4", "--counts", "2x2x2", "--rays", "64", "--depth", "3")
+EYE = ("--eye", "0.06,1.15,2.3", "--target", "0,0.55,0", "--fov", "36", "--size", "96x72")
+
+
+class Bake(support.CommandTest):
+    def test_bake_info_and_render(self):
+        self.succeed("bake", "columns", "-o", "columns.bake", *BOX, "--json", "bake.json")
+        locations = json.loads(self.read("bake.json"))["locations"]
+        self.assertEqual(len(locations), 8)
+        for location in locations:
+            self.assertEqual(location["traces"], 1)
+            self.assertGreater(location["rays"], 1000)
+            self.assertGreaterEqual(location["mean_leaf_rays"], 1)
+        self.assertFalse(os.path.exists(self.path("columns.bake.part")))
+        self.assertIn("2x2x2 locations", self.succeed("info", "columns.bake").stdout.decode())
+        self.assertEqual(self.json_of("info", "columns.bake")["baked"]["rays"], 64)
+        self.succeed("render", "columns", "-o", "a.png", "--method", "morphing", "--baked", "columns.bake", *EYE,
+                     "--json", "a.json")
+        self.assertGreater(json.loads(self.read("a.json"))["counters"]["virtual_triangles"], 1000)
+
+    def test_a_killed_bake_goes_on_to_the_same_bytes(self):
+        counts = ("--box", "-0.1,1.0,2.2,0.2,1.3,2.4", "--counts", "5x4x3", "--rays", "96", "--depth", "3", "--quiet")
+        self.succeed("bake", "columns", "-o", "whole.bake", *counts)
+        for delay in (0.3, 0.6, 0.9):
+            bake = subprocess.Popen([support.CATOPTRIC, "bake", "columns", "-o", "killed.bake", *counts],
+                                    cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(delay)
+            bake.send_signal(signal.SIGKILL)
+            bake.wait()
+        self.succeed("bake", "columns", "-o", "killed.bake", *counts)
+        self.assertTrue(self.read("whole.bake") == self.read("killed.bake"))
+
+    def test_files_that_do_not_fit_are_refused_in_one_line(self):
+        self.succeed("bake", "columns", "-o", "columns.bake", *BOX)
+        self.write("other.bake", b"something else")
+        self.write("short.bake", self.read("columns.bake")[:-5])
+        draw = ("-o", "a.png", "--method", "morphing", "--baked")
+        for name in ("other.bake", "short.bake"):
+            self.refuse(1, name, "render", "columns", *draw, name)
+        self.refuse(1, "other mirrors", "render", "cylinder", *draw, "columns.bake")
+        self.assertFalse(os.path.exists(self.path("a.png")))
+
+    def test_wrong_boxes_and_counts(self):
+        for words in (("--box", "0,0,0,1,1"), ("--box", "0,0,0,0,1,1"), ("--counts", "3x3"), ("--counts", "1x2x2"),
+                      ("--counts", "2x2x2x2")):
+            self.refuse(2, words[0], "bake", "columns", "-o", "a.bake", *words)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+// Maps, octrees, look-ups and morphing against rays of which everything is known.
+#include "catoptric/reflection_morphing/morphing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "mirror_world.h"
+
+namespace catoptric::reflection_morphing {
+namespace {
+
+using namespace test;
+
+const dvec3 kEye(0.4, 0.3, 2.1);
+
+struct Quantiles {
+  double median = 0, p95 = 0;
+};
+
+Quantiles summarise(std::vector<double> values, const char* name) {
+  if (values.empty()) return {1e9, 1e9};
+  std::sort(values.begin(), values.end());
+  const Quantiles q{values[values.size() / 2], values[values.size() * 95 / 100]};
+  std::printf("%-28s %6zu points: median %.4f p95 %.4f largest %.3f px\n", name, values.size(), q.median,
+              q.p95, values.back());
+  return q;
+}
+
+FoundRay lookUp(const SampledTrace& trace, const dvec3& q) {
+  const vec3 p(q);
+  return findRay(trace.map, p, findNearestRay(trace.map, trace.octree.findLeaf(p), p));
+}
+
+TEST(RayMap, raysObeyTheMirrorLaw) {
+  const scene::WorldGeometry world = makeSphereWorld();
+  const auto maps = traceRayMaps(MirrorRays(world), kEye, {64, 1});
+  ASSERT_EQ(maps.size(), 1u);
+  EXPECT_EQ(maps[0].trace, Trace{0});
+  for (std::size_t i = 0; i < maps[0].texels.size(); ++i) {
+    if (maps[0].states[i] != TexelState::Ray) continue;
+    const RayTexel& texel = maps[0].texels[i];
+    const dvec3 normal = glm::normalize(dvec3(texel.origin)),
+                view = glm::normalize(dvec3(texel.origin) - kEye);
+    EXPECT_NEAR(glm::length(texel.origin), 0.5f, 1e-3f);  // facets
+    EXPECT_LT(glm::length(dvec3(texel.direction) - core::reflectDirection(view, normal)), 5e-3);
+  }
+  EXPECT_GT(maps[0].countRays(), 64u * 64u * 6 / 10);  // the window fits the disc
+}
+
+TEST(RayMap, nothingIsSeenFromInsideAMirrorOrWithoutMirrors) {
+  const scene::WorldGeometry world = makeSphereWorld(), empty = makeMirrorWorld({});
+  EXPECT_TRUE(makeLocation(MirrorRays(world), dvec3(0.1, 0, 0), makeOptions(world, 32))->traces.empty());
+  EXPECT_TRUE(makeLocation(MirrorRays(empty), kEye, makeOptions(empty, 32))->traces.empty());
+}
+
+TEST(RayOctree, everyPointFindsARayAndLeavesAreModest) {
+  const scene::WorldGeometry world = makeSphereWorld();
+  const auto location = makeLocation(MirrorRays(world), kEye, makeOptions(world));
+  ASSERT_EQ(location->traces.size(), 1u);
+  const RayOctree& octree = location->traces[0].octree;
+  EXPECT_GT(measure(octree).leaves, 1000u);
+  EXPECT_LE(measure(octree).mostRays, 12u);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> uniform(-5, 5);  // also outside of the box
+  for (int i = 0; i < 1000; ++i)
+    EXPECT_GE(octree.findLeaf({uniform(random), uniform(random), uniform(random)}).size(), 1u);
+}
+
+TEST(FindRay, findsTheRayThatPassesThroughAPoint) {
+  const scene::WorldGeometry world = makeSphereWorld();
+  const MirrorRays rays(world);
+  const auto location = makeLocation(rays, kEye, makeOptions(world));
+  const SampledTrace& trace = location->traces.at(0);
+  std::vector<double> errors, nearest;
+  std::size_t inside = 0, wrongLengths = 0;
+  const auto points = makeKnownPoints(rays, kEye, {0}, 3000, 7);
+  for (const KnownPoint& known : points) {
+    const FoundRay found = lookUp(trace, known.scenePoint);
+    inside += found.isInside ? 1 : 0;
+    errors.push_back(measurePixels(kEye, dvec3(found.mirrorPoint), known.mirrorPoint, world.reflectors[0]));
+    const double length = glm::length(dvec3(found.mirrorPoint) - kEye) + double(found.rest);
+    wrongLengths += std::abs(length - known.pathLength) > 0.002 ? 1 : 0;
+    const vec3 q(known.scenePoint);
+    const RayTexel& ray = trace.map.texels[findNearestRay(trace.map, trace.octree.findLeaf(q), q)];
+    nearest.push_back(measurePixels(kEye, dvec3(ray.origin), known.mirrorPoint, world.reflectors[0]));
+  }
+  const Quantiles q = summarise(errors, "one location");
+  EXPECT_LT(q.median, 0.05);
+  EXPECT_LT(q.p95, 0.5);
+  EXPECT_GT(inside, points.size() * 97 / 100);
+  EXPECT_LT(wrongLengths, points.size() / 100);
+  // The twin that must fail: the nearest ray of the leaf, as published.
+  EXPECT_GT(summarise(nearest, "nearest ray, as published").median, 1.0);
+}
+
+TEST(FindRay, aSeedNearbyGivesTheSameRay) {
+  const scene::WorldGeometry world = makeSphereWorld();
+  const MirrorRays rays(world);
+  const auto location = makeLocation(rays, kEye, makeOptions(world, 128));
+  const SampledTrace& trace = location->traces.at(0);
+  std::size_t seeds = 0, same = 0;
+  for (const KnownPoint& known : makeKnownPoints(rays, kEye, {0}, 200, 3)) {
+    const vec3 q(known.scenePoint);
+    const FoundRay first = lookUp(trace, known.scenePoint);
+    if (!first.isInside) continue;
+    const auto size = std::uint32_t(trace.map.size);
+    const std::uint32_t nearest = findNearestRay(trace.map, trace.octree.findLeaf(q), q);
+    for (const std::uint32_t seed : {nearest + 3, nearest - 3, nearest + 3 * size, nearest - 3 * size}) {
+      if (seed >= size * (size - 1) || !trace.map.isCell(int(seed % size), int(seed / size))) continue;
+      ++seeds;
+      same += glm::length(findRay(trace.map, q, seed).mirrorPoint - first.mirrorPoint) < 1e-3f ? 1 : 0;
+    }
+  }
+  EXPECT_GT(seeds, 500u);
+  EXPECT_GE(same, seeds * 98 / 100);  // from the very rim the first step may be too long
+}
+
+TEST(FindRay, pointsInTheShadowAreNotReflected) {
+  const scene::WorldGeometry world = makeSphereWorld();
+  const auto location = makeLocation(MirrorRays(world), kEye, makeOptions(world));
+  for (const double behind : {0.8, 1.2, 2.0})
+    EXPECT_FALSE(lookUp(location->traces.at(0), -behind * glm::normalize(kEye)).isInside);
+}
+
+TEST(FindRay, overTwoMirrors) {
+  const scene::WorldGeometry world = makeTwoSpheres();
+  const MirrorRays rays(world);
+  const auto location = makeLocation(rays, kEye, makeOptions(world, 256, 5, 2));
+  for (const Trace& trace : {Trace{0, 1}, Trace{1, 0}}) {
+    const SampledTrace* sampled = location->findTrace(trace);
+    ASSERT_NE(sampled, nullptr);
+    std::vector<double> errors;
+    for (const KnownPoint& known : makeKnownPoints(rays, kEye, trace, 1000, 5))
+      errors.push_back(measurePixels(kEye, dvec3(lookUp(*sampled, known.scenePoint).mirrorPoint),
+                                     known.mirrorPoint, world.reflectors[trace[0]]));
+    EXPECT_LT(summarise(errors, "two mirrors").median, 0.1);
+  }
+}
+
+/// Cells around the eye.
+struct Cells {
+  Cells(const MirrorRays& rays, const glm::uvec3& counts, double edge, const BakeOptions& options) {
+    const dvec3 lower = kEye - 0.37 * edge;
+    grid = {{lower, lower + edge * dvec3(counts - 1u)}, counts};
+    for (std::uint32_t i = 0; i < grid.locationCount(); ++i)
+      locations.push_back(makeLocation(rays, grid.location(i), options));
+  }
+  /// Virtual vertices for an eye with the weights of `cell`.
+  [[nodiscard]] std::vector<vec3> morph(const SamplingCell& cell, const dvec3& eye,
+                                        const std::vector<vec3>& points) const {
+    CellTrace trace{};
+    for (std::size_t k = 0; k < 8; ++k) trace[k] = locations[cell.locations[k]]->findTrace({0});
+    CornerPoints corners;
+    lookUpCorners(trace, points, corners);
+    std::vector<vec3> drawn(points.size()), mirror(points.size());
+    morphVertices(vec3(eye), weighTrace(trace, cell.weights), corners, drawn, mirror);
+    return drawn;
+  }
+  SamplingGrid grid;
+  std::vector<std::shared_ptr<const SamplingLocation>> locations;
+};
+
+TEST(Morphing, insideACellAndContinuousAcrossItsSides) {
+  const scene::WorldGeometry world = makeSphereWorld();
+  const MirrorRays rays(world);
+  const Cells cells(rays, {3, 2, 2}, 0.15, makeOptions(world));
+  const auto known = makeKnownPoints(rays, kEye, {0}, 2000, 11);
+  std::vector<vec3> points;
+  for (const KnownPoint& k : known) points.emplace_back(k.scenePoint);
+  const auto cell = cells.grid.findCell(kEye);
+  ASSERT_TRUE(cell);
+  const auto drawn = cells.morph(*cell, kEye, points);
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < known.size(); ++i)
+    errors.push_back(measurePixels(kEye, dvec3(drawn[i]), known[i].mirrorPoint, world.reflectors[0]));
+  const Quantiles q = summarise(errors, "inside a cell of 0.15 m");
+  EXPECT_LT(q.median, 0.25);
+  EXPECT_LT(q.p95, 2.0);
+
+  // The side that two cells share: weights of one cell or of the other, the same picture.
+  const dvec3 onSide(cells.grid.location(1).x, kEye.y, kEye.z);
+  const SamplingCell left = *cells.grid.findCell(onSide - dvec3(1e-9, 0, 0)),
+                     right = *cells.grid.findCell(onSide + dvec3(1e-9, 0, 0));
+  EXPECT_NE(left.locations, right.locations);
+  const auto a = cells.morph(left, onSide, points), b = cells.morph(right, onSide, points);
+  for (std::size_t i = 0; i < points.size(); ++i) EXPECT_LT(glm::length(a[i] - b[i]), 1e-4f);
+}
+
+TEST(Morphing, aTraceThatFewLocationsSeeHasNoWeight) {
+  const SampledTrace sampled;
+  std::array<float, 8> even{};
+  even.fill(0.125f);
+  CellTrace trace{};
+  trace[3] = &sampled;
+  EXPECT_EQ(weighTrace(trace, even)[3], 0.0f);
+  trace[4] = &sampled;
+  EXPECT_FLOAT_EQ(weighTrace(trace, even)[3], 0.5f);
+}
+
+TEST(SamplingGrid, weightsAddUpAndEndAtTheBox) {
+  const SamplingGrid grid{{dvec3(-1), dvec3(1)}, {3, 4, 5}};
+  for (const dvec3& eye : {dvec3(-1), dvec3(1), dvec3(0.3, -0.2, 0.9), dvec3(0)}) {
+    const auto cell = grid.findCell(eye);
+    ASSERT_TRUE(cell);
+    dvec3 at(0);
+    for (std::size_t k = 0; k < 8; ++k) at += double(cell->weights[k]) * grid.location(cell->locations[k]);
+    EXPECT_LT(glm::length(at - eye), 1e-6);
+  }
+  EXPECT_FALSE(grid.findCell({1.001, 0, 0}));
+  EXPECT_FALSE(grid.findCell({std::nan(""), 0, 0}));
+}
+
+}  // namespace
+}  // namespace catoptric::reflection_morphing
