@@ -11,6 +11,7 @@
 #include "option_values.h"
 #include "shared_options.h"
 #include "terminal.h"
+#include "zexel_options.h"
 
 namespace catoptric::app {
 namespace {
@@ -30,6 +31,11 @@ struct Options {
 /// null where there is none.
 Json rate(double perSecond) {
   return perSecond > 0 ? Json(perSecond) : Json(nullptr);
+}
+
+/// null where there is nothing to have a share of.
+Json share(std::uint64_t part, std::uint64_t whole) {
+  return whole > 0 ? Json(double(part) / double(whole)) : Json(nullptr);
 }
 
 Json makeRow(const MethodVariant& variant, const renderer::FrameOptions& frame, const FrameTimes& times) {
@@ -52,6 +58,10 @@ Json makeRow(const MethodVariant& variant, const renderer::FrameOptions& frame, 
           {"virtual_vertices_per_s", rate(times.virtualVerticesPerS)},
           {"dynamic_vertices_per_s", rate(times.dynamicVerticesPerS)},
           {"static_vertices_per_s", rate(times.staticVerticesPerS)},
+          {"zexels", times.counters.zexels},
+          {"zexels_per_s", rate(times.zexelsPerS)},
+          {"warp_ms", times.warpMs},
+          {"uncovered_share", share(times.counters.uncoveredPixels, times.counters.zexelPixels)},
           {"rays", times.counters.rays},
           {"rays_per_s", rate(times.raysPerS)}};
 }
@@ -62,13 +72,13 @@ std::string millions(double perSecond) {
 
 std::string makeTable(const std::vector<MethodVariant>& variants, const std::vector<FrameTimes>& times) {
   std::vector<std::vector<std::string>> rows{{"method", "median ms", "p95 ms", "primary ms", "reflection ms",
-                                              "virtual vertices", "Mvertices/s", "Mrays/s"}};
+                                              "virtual vertices", "Mvertices/s", "Mzexels/s", "Mrays/s"}};
   for (std::size_t i = 0; i < variants.size(); ++i)
     rows.push_back({variants[i].name, fmt::format("{:.1f}", times[i].medianMs),
                     fmt::format("{:.1f}", times[i].p95Ms), fmt::format("{:.1f}", times[i].primaryMs),
                     fmt::format("{:.1f}", times[i].reflectionMs),
                     std::to_string(times[i].counters.virtualVertices), millions(times[i].virtualVerticesPerS),
-                    millions(times[i].raysPerS)});
+                    millions(times[i].zexelsPerS), millions(times[i].raysPerS)});
   return formatTable(rows, usesColour(stdout));
 }
 
@@ -128,6 +138,7 @@ Command makeBenchCommand() {
                              setInteger("--repeat", options->repeats, 1, kMostRepeats));
             declareBaked(arguments, options->picture.frame);
             declarePicture(arguments, options->picture);
+            declareZexels(arguments, options->picture.frame.zexel);
             declareCamera(arguments, options->camera);
             declareScene(arguments, options->scene);
             declareMotion(arguments, options->scene);

@@ -16,6 +16,7 @@
 #include "comparison_page.h"
 #include "option_values.h"
 #include "terminal.h"
+#include "zexel_options.h"
 
 namespace catoptric::app {
 namespace {
@@ -157,6 +158,7 @@ void declare(Arguments& arguments, const std::shared_ptr<Options>& options) {
   declareBaked(arguments, options->picture.frame);
   declareLimits(arguments, options->limits);
   declarePicture(arguments, options->picture);
+  declareZexels(arguments, options->picture.frame.zexel);
   declareCamera(arguments, options->camera);
   declareScene(arguments, options->scene);
   declareMotion(arguments, options->scene);

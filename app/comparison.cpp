@@ -180,6 +180,11 @@ Json makeJson(const Comparison& comparison, const ComparisonRow& row) {
   json["virtual_triangles"] = times.counters.virtualTriangles;
   json["fragment_tests"] = times.counters.fragmentTests;
   json["virtual_vertices_per_s"] = rate(times.virtualVerticesPerS);
+  json["zexels"] = times.counters.zexels;
+  json["zexels_per_s"] = rate(times.zexelsPerS);
+  json["uncovered_share"] =
+      figure(times.counters.zexelPixels, double(times.counters.uncoveredPixels) /
+                                             double(std::max<std::uint64_t>(1, times.counters.zexelPixels)));
   json["rays"] = times.counters.rays;
   json["rays_per_s"] = rate(times.raysPerS);
   json["files"] = {{"picture", row.files.picture}};

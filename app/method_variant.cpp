@@ -42,6 +42,8 @@ FrameTimes summarise(const std::vector<renderer::FrameTimings>& frames,
     times.dynamicVerticesPerS = double(counters.lookedUpVertices) / (0.001 * (lookUpMs + verticesMs));
   else if (isMorphing && verticesMs > 0)
     times.staticVerticesPerS = double(counters.virtualVertices) / (0.001 * verticesMs);
+  times.warpMs = quantile(collect(&renderer::FrameTimings::warpMs), 0.5);
+  if (times.warpMs > 0) times.zexelsPerS = double(counters.zexels) / (0.001 * times.warpMs);
   if (times.medianMs > 0) times.raysPerS = double(counters.rays) / (0.001 * times.medianMs);
   times.counters = counters;
   return times;
@@ -65,6 +67,8 @@ const std::vector<MethodVariant>& methodVariants() {
        Solver::Analytic, true},
       {"virtual-exact", "virtual objects, each fragment tested by its ray", Method::Virtual, Solver::Exact,
        true},
+      {"zexel", "warped reference images of flat mirrors, followed by rays for curved ones", Method::Zexel,
+       Solver::Auto, true, false, false},
       {"morphing", "reflection morphing, vertices kept while the eye stays in its cell", Method::Morphing,
        Solver::Auto, true, false, false},
       {"morphing-dynamic", "reflection morphing, every vertex looked up in every frame", Method::Morphing,

@@ -26,7 +26,7 @@ struct MethodVariant {
 };
 
 /// Slowest-looking last: none, environment-plain, environment, virtual-explosion, virtual-layered,
-/// virtual-refined, virtual-analytic, virtual-exact, morphing, morphing-dynamic, raytrace.
+/// virtual-refined, virtual-analytic, virtual-exact, zexel, morphing, morphing-dynamic, raytrace.
 [[nodiscard]] const std::vector<MethodVariant>& methodVariants();
 /// Those that are drawn where none is named.
 [[nodiscard]] std::vector<MethodVariant> defaultVariants();
@@ -40,9 +40,11 @@ struct MethodVariant {
 /// Many frames of one variant.
 struct FrameTimes {
   int frames = 0;
-  double medianMs = 0, p95Ms = 0;                          ///< of the whole frame
-  double primaryMs = 0, reflectionMs = 0;                  ///< medians of its parts
-  double virtualVerticesPerS = 0, raysPerS = 0;            ///< 0 where the variant has none; from the medians
+  double medianMs = 0, p95Ms = 0;          ///< of the whole frame
+  double primaryMs = 0, reflectionMs = 0;  ///< medians of its parts
+  double warpMs = 0;                       ///< median
+  /// 0 where the variant has none; from the medians.
+  double virtualVerticesPerS = 0, zexelsPerS = 0, raysPerS = 0;
   double dynamicVerticesPerS = 0, staticVerticesPerS = 0;  ///< of morphing
   renderer::FrameCounters counters;
 };

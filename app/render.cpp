@@ -12,6 +12,7 @@
 #include "pictures.h"
 #include "shared_options.h"
 #include "terminal.h"
+#include "zexel_options.h"
 
 namespace catoptric::app {
 namespace {
@@ -52,13 +53,19 @@ Json makeFrameJson(const renderer::FrameOptions& options, const renderer::Frame&
            {{"total_ms", times.totalMs},
             {"primary_ms", times.primaryMs},
             {"reflection_ms", times.reflectionMs},
-            {"virtual_vertices_ms", times.virtualVerticesMs}}},
+            {"virtual_vertices_ms", times.virtualVerticesMs},
+            {"warp_ms", times.warpMs},
+            {"capture_ms", times.captureMs}}},
           {"counters",
            {{"virtual_vertices", counters.virtualVertices},
             {"virtual_triangles", counters.virtualTriangles},
             {"fragment_tests", counters.fragmentTests},
             {"reflectors_drawn", counters.reflectorsDrawn},
             {"reflectors_culled", counters.reflectorsCulled},
+            {"zexels", counters.zexels},
+            {"zexel_pixels", counters.zexelPixels},
+            {"uncovered_pixels", counters.uncoveredPixels},
+            {"zexel_captures", counters.zexelCaptures},
             {"rays", counters.rays}}}};
 }
 
@@ -178,6 +185,7 @@ Command makeRenderCommand() {
                 declareMotion(arguments, options->scene);
                 declareMethod(arguments, options->frame.frame, options->plainMap);
                 declarePicture(arguments, options->frame);
+                declareZexels(arguments, options->frame.frame.zexel);
                 declareCamera(arguments, options->camera);
                 declareScene(arguments, options->scene);
                 declareOutput(arguments, options->output);

@@ -18,19 +18,17 @@ constexpr int kMostBounces = 16, kMostSamples = 1024, kMostThreads = 1024;
 
 const std::vector<renderer::Method> kMethods{renderer::Method::Auto,        renderer::Method::None,
                                              renderer::Method::Environment, renderer::Method::Virtual,
-                                             renderer::Method::Morphing,    renderer::Method::RayTrace};
+                                             renderer::Method::Morphing,    renderer::Method::Zexel,
+                                             renderer::Method::RayTrace};
 const std::vector<renderer::Solver> kSolvers{renderer::Solver::Auto,     renderer::Solver::Explosion,
                                              renderer::Solver::Layered,  renderer::Solver::Refined,
                                              renderer::Solver::Analytic, renderer::Solver::Subdivision,
                                              renderer::Solver::Exact};
-// Words that are planned (docs/methods.md); they get an answer of their own.
-const std::vector<std::string> kPlannedMethods{"zexel"};
-const std::vector<std::string> kPlannedSolvers{};
 
 /// The value whose name was typed.
 template <class Value>
 Value choose(const std::string& option, const std::string& text, const std::vector<Value>& values,
-             std::string_view (*nameOf)(Value), const std::vector<std::string>& planned) {
+             std::string_view (*nameOf)(Value)) {
   std::vector<std::string> names;
   std::string all;
   for (const Value value : values) {
@@ -38,8 +36,6 @@ Value choose(const std::string& option, const std::string& text, const std::vect
     all.append(all.empty() ? "there are " : ", ").append(names.back());
     if (names.back() == text) return value;
   }
-  for (const std::string& name : planned)
-    if (name == text) throw UsageError(fmt::format("{}: '{}' is not in this version", option, text), all);
   throw UsageError(fmt::format("{}: there is no '{}'", option, text), makeSuggestion(text, names, all));
 }
 
@@ -141,16 +137,16 @@ void declareBaked(Arguments& arguments, renderer::FrameOptions& options) {
 
 void declareMethod(Arguments& arguments, renderer::FrameOptions& options, bool& plainMap) {
   arguments.group("Method");
-  arguments.option("--method", "NAME", "auto (default), none, environment, virtual, morphing, raytrace",
+  arguments.option("--method", "NAME",
+                   "auto (default), none, environment, virtual, morphing, zexel, raytrace",
                    [&](const std::string& text) {
-                     options.method =
-                         choose("--method", text, kMethods, renderer::methodName, kPlannedMethods);
+                     options.method = choose("--method", text, kMethods, renderer::methodName);
                    });
   arguments.option(
       "--solver", "NAME",
       "Of the virtual method: auto (default), explosion, layered, refined, exact, analytic, subdivision",
       [&](const std::string& text) {
-        options.solver = choose("--solver", text, kSolvers, renderer::solverName, kPlannedSolvers);
+        options.solver = choose("--solver", text, kSolvers, renderer::solverName);
       });
   declareBaked(arguments, options);
   arguments.flag("--plain-environment-map", "No parallax correction by the box of the room", plainMap);

@@ -31,7 +31,9 @@ else
   shapes=()
   for name in concave-bowl mask mixed tv cone vase wavy-wall; do shapes+=("$out/scenes/$name.glb"); done
   others=()
-  for file in "$out"/scenes/*.glb; do [[ " ${shapes[*]} " == *" $file "* ]] || others+=("$file"); done
+  for name in four-spheres cylinder fender polyhedra-and-sphere checker-box hall-of-mirrors drivers-view; do
+    others+=("$out/scenes/$name.glb")
+  done
   compare "${others[@]}" -o "$out"
   compare "${shapes[@]}" -o "$out/shapes" --repeat 1 --methods environment,virtual-explosion,virtual-refined
   compare "$out/scenes/hall-of-mirrors.glb" -o "$out/hall-of-mirrors-4-bounces" --bounces 4 \

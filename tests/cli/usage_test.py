@@ -53,10 +53,6 @@ class WrongUsage(support.CommandTest):
         self.refuse(2, ("'refind'", "did you mean 'refined'?"), *render, "--solver", "refind")
         self.refuse(2, ("'environmnt'", "did you mean 'environment'?"), "bench", "scene.gltf", "--methods", "environmnt")
 
-    def test_planned_words_are_named_as_such(self):
-        for word in ("zexel",):
-            self.refuse(2, "not in this version", "render", "scene.gltf", "-o", "x.png", "--method", word)
-
     def test_values_that_are_no_good(self):
         for option, value in (("--size", "abc"), ("--size", "0x10"), ("--size", "-3x4"), ("--size", "10"),
                               ("--size", "99999x2"), ("--size", "16384x16384"), ("--size", "10x10x10"),

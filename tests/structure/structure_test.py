@@ -18,7 +18,7 @@ from concurrent.futures import ThreadPoolExecutor
 SOURCE = os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))), "src", "catoptric")
 SCENE = {"core", "geometry", "scene"}
 RASTER = SCENE | {"gl", "raster"}
-METHODS = {"planar_mirror", "virtual_object", "environment_map", "reflection_morphing"}
+METHODS = {"planar_mirror", "virtual_object", "environment_map", "reflection_morphing", "depth_reflection_map"}
 # core <- geometry <- scene <- raster <- methods <- renderer; no method sees another, nor the judge, and it sees none.
 SEES = {"core": set(), "geometry": {"core"}, "scene": {"core", "geometry"}, "gl": {"core"}, "metrics": {"core"},
         "raster": SCENE | {"gl"}, "reference": SCENE, **{method: RASTER for method in METHODS},

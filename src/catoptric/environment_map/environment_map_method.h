@@ -7,7 +7,7 @@
 #include <map>
 #include <memory>
 
-#include "catoptric/raster/reflection_method.h"
+#include "catoptric/raster/scene_cube.h"
 
 namespace catoptric::environment_map {
 
@@ -23,19 +23,18 @@ class EnvironmentMapMethod : public raster::ReflectionMethod {
               raster::Level& target) override;
 
  private:
-  struct Cube {
-    explicit Cube(int sizeTexels);
-    gl::Texture color, position, ids;
+  struct Kept {
+    std::unique_ptr<raster::SceneCube> cube;
     bool isFresh = false;
   };
-  Cube& takeCube(raster::FrameContext& frame, std::uint32_t reflector);
+  const raster::SceneCube& takeCube(raster::FrameContext& frame, std::uint32_t reflector);
 
   gl::Program program_;
   gl::VertexArray nothing_;
   int sizeTexels_ = 512;
   bool boxCorrected_ = true;
-  std::unique_ptr<raster::Level> face_;
-  std::map<std::uint32_t, std::unique_ptr<Cube>> cubes_;
+  raster::SceneCubeCapture capture_;
+  std::map<std::uint32_t, Kept> cubes_;
 };
 
 /// The box of the room: bounds of the shell if it holds the point, else of the whole scene.

@@ -25,6 +25,8 @@ FormatInfo infoOf(Format format) {
       return {GL_RGBA16F, GL_RGBA, GL_FLOAT};
     case Format::Rgba32F:
       return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
+    case Format::R32Ui:
+      return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT};
     case Format::Rg32Ui:
       return {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT};
     case Format::Rgba32Ui:
@@ -99,6 +101,12 @@ void Texture::upload(int level, int layer, const void* texels) {
         kind_ == TextureKind::Cube ? GL_TEXTURE_CUBE_MAP_POSITIVE_X + unsigned(layer) : target;
     glTexSubImage2D(face, level, 0, 0, w, h, info.format, info.type, texels);
   }
+}
+
+void Texture::uploadCorner(int widthTexels, int heightTexels, const void* texels) {
+  const FormatInfo info = infoOf(format_);
+  glBindTexture(GL_TEXTURE_2D, id_);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, widthTexels, heightTexels, info.format, info.type, texels);
 }
 
 void Texture::generateMipmaps() {

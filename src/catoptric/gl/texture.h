@@ -7,7 +7,17 @@
 
 namespace catoptric::gl {
 
-enum class Format : std::uint8_t { Rgba8, Srgb8Alpha8, Rgb16F, Rgba16F, Rgba32F, Rg32Ui, Rgba32Ui, Depth32F };
+enum class Format : std::uint8_t {
+  Rgba8,
+  Srgb8Alpha8,
+  Rgb16F,
+  Rgba16F,
+  Rgba32F,
+  R32Ui,
+  Rg32Ui,
+  Rgba32Ui,
+  Depth32F
+};
 enum class TextureKind : std::uint8_t { Flat, Array, Cube };
 enum class TextureWrap : std::uint8_t { Repeat, MirroredRepeat, ClampToEdge };
 
@@ -32,6 +42,8 @@ class Texture {
   /// Uploads one whole image: 8-bit formats from bytes (4 per texel), 16F formats from 32-bit floats (3 or 4
   /// per texel). `layer`: of an array, or the face of a cube in GL's order.
   void upload(int level, int layer, const void* texels);
+  /// Flat textures: uploads the lower left part of level 0 from packed rows, 32-bit formats as stored.
+  void uploadCorner(int widthTexels, int heightTexels, const void* texels);
   void generateMipmaps();
   void bind(int unit) const;
 

@@ -17,6 +17,11 @@ struct MethodCounters {
   double virtualVerticesMs = 0;
   std::uint64_t lookedUpVertices = 0;  ///< of morphing: searched in the octrees, the others were kept
   double lookUpMs = 0;
+  std::uint64_t zexels = 0;           ///< warped
+  std::uint64_t zexelPixels = 0;      ///< mirror pixels that zexels were warped to show
+  std::uint64_t uncoveredPixels = 0;  ///< of which no zexel reached
+  std::uint64_t zexelCaptures = 0;    ///< reference images taken
+  double warpMs = 0, captureMs = 0;
 };
 
 /// What a method gets to work with in one frame.
@@ -30,6 +35,8 @@ struct FrameContext {
   dvec2 jitterPx{0.5, 0.5};
   double maxErrorPx = 0.5;
   MethodCounters& counters;
+  /// Ids of the level that render() gets as `parent`, bottom row first.
+  std::span<const uvec2> parentIds{};
 };
 
 class ReflectionMethod {

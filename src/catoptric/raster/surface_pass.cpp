@@ -137,29 +137,39 @@ dmat4 makeClipFromWorld(const scene::CameraFrame& camera, double nearPlane, cons
 PrimaryPass::PrimaryPass(SurfacePass& surfaces)
     : surfaces_(surfaces), background_("raster/screen.vert", "raster/background.frag") {}
 
+PinholeView makePinholeView(const scene::CameraFrame& camera, double nearPlane, const dvec2& jitterPx) {
+  // gl_FragCoord counts from the lower left corner and points at pixel centres.
+  const dvec2 offset = jitterPx - 0.5;
+  return {camera.eye, camera.rayDirection(offset.x, camera.heightPx + offset.y), camera.rayDirectionDx(),
+          -camera.rayDirectionDy(), makeClipFromWorld(camera, nearPlane, jitterPx)};
+}
+
 void PrimaryPass::draw(const SceneBuffers& scene, const scene::CameraFrame& camera, double nearPlane,
                        const dvec2& jitterPx, Level& target, std::uint32_t excludedReflector) {
+  draw(scene, makePinholeView(camera, nearPlane, jitterPx), target, excludedReflector);
+}
+
+void PrimaryPass::draw(const SceneBuffers& scene, const PinholeView& pinhole, Level& target,
+                       std::uint32_t excludedReflector) {
   target.clear();
   gl::setDrawState({.depthTest = false, .depthWrite = false});
   background_.use();
   scene.bindEnvironment(background_);
-  // gl_FragCoord counts from the lower left corner and points at pixel centres.
-  const dvec2 offset = jitterPx - 0.5;
-  background_.set("u_rayOrigin", vec3(camera.rayDirection(offset.x, camera.heightPx + offset.y)));
-  background_.set("u_rayDx", vec3(camera.rayDirectionDx()));
-  background_.set("u_rayDy", vec3(-camera.rayDirectionDy()));
+  background_.set("u_rayOrigin", vec3(pinhole.rayOrigin));
+  background_.set("u_rayDx", vec3(pinhole.rayDx));
+  background_.set("u_rayDy", vec3(pinhole.rayDy));
   nothing_.bind();
   gl::drawScreen();
 
   SurfaceView view;
-  view.clipFromDraw = makeClipFromWorld(camera, nearPlane, jitterPx);
-  view.eye = view.drawEye = camera.eye;
+  view.clipFromDraw = pinhole.clipFromWorld;
+  view.eye = view.drawEye = pinhole.eye;
   view.excludedReflector = excludedReflector;
   surfaces_.draw(scene, scene.world(), scene.opaqueRanges(), view, target);
   if (scene.blendedRanges().empty()) return;
   if (!blendedStreams_) blendedStreams_ = std::make_unique<VertexStreams>(scene.geometry());
   sortBlendedTriangles(scene.blendedRanges(), scene.geometry().indices, scene.geometry().positions,
-                       camera.eye, sortedIndices_, sortedRanges_);
+                       pinhole.eye, sortedIndices_, sortedRanges_);
   blendedStreams_->setIndices(sortedIndices_, true);
   surfaces_.drawBlended(scene, *blendedStreams_, sortedRanges_, view, target);
 }

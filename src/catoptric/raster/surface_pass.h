@@ -58,6 +58,14 @@ void sortBlendedTriangles(std::span<const DrawRange> ranges, std::span<const std
                           std::span<const vec3> drawPositions, const dvec3& eye,
                           std::vector<std::uint32_t>& sortedIndices, std::vector<DrawRange>& sortedRanges);
 
+/// A view that need not be symmetric about its axis: position (x, y) of the target, pixels from its lower
+/// left corner, looks along rayOrigin + x rayDx + y rayDy.
+struct PinholeView {
+  dvec3 eye{0};
+  dvec3 rayOrigin{0, 0, -1}, rayDx{0}, rayDy{0};
+  dmat4 clipFromWorld{1.0};
+};
+
 /// Level 0: environment and scene seen from a camera; also used for the faces of environment maps.
 class PrimaryPass {
  public:
@@ -66,6 +74,8 @@ class PrimaryPass {
   void draw(const SceneBuffers& scene, const scene::CameraFrame& camera, double nearPlane,
             const dvec2& jitterPx, Level& target, std::uint32_t excludedReflector = core::kNoId);
   void geometryChanged() { blendedStreams_.reset(); }
+  void draw(const SceneBuffers& scene, const PinholeView& pinhole, Level& target,
+            std::uint32_t excludedReflector = core::kNoId);
 
  private:
   SurfacePass& surfaces_;
@@ -75,6 +85,10 @@ class PrimaryPass {
   std::vector<std::uint32_t> sortedIndices_;
   std::vector<DrawRange> sortedRanges_;
 };
+
+/// A camera's view; `jitterPx` as above.
+[[nodiscard]] PinholeView makePinholeView(const scene::CameraFrame& camera, double nearPlane,
+                                          const dvec2& jitterPx);
 
 /// World to clip space with the sample moved to the pixel's centre.
 [[nodiscard]] dmat4 makeClipFromWorld(const scene::CameraFrame& camera, double nearPlane,

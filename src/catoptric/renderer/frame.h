@@ -15,6 +15,7 @@
 
 #include "catoptric/core/image.h"
 #include "catoptric/core/seen.h"
+#include "catoptric/depth_reflection_map/zexel_options.h"
 #include "catoptric/scene/camera_frame.h"
 #include "catoptric/scene/environment.h"
 #include "catoptric/scene/scene.h"
@@ -23,7 +24,7 @@
 namespace catoptric::renderer {
 
 /// How reflections are made. None: mirrors show the environment only, as they do after the last bounce.
-enum class Method { Auto, None, Environment, Virtual, Morphing, RayTrace };
+enum class Method { Auto, None, Environment, Virtual, Morphing, Zexel, RayTrace };
 /// How the Virtual method finds reflection points on curved mirrors; Exact tests fragments instead.
 enum class Solver { Auto, Explosion, Layered, Refined, Exact, Analytic, Subdivision };
 
@@ -39,10 +40,11 @@ struct FrameOptions {
   int samples = 1;           ///< per pixel, for radiance; what is seen is always sampled at the pixel centre
   double maxErrorPx = 0.5;   ///< aim of the tessellation of reflected objects
   bool boxCorrected = true;  ///< Environment: parallax-corrected by the box of the room; false: plain
-  int environmentMapSize = 512;  ///< Environment: edge of a cube face, texels
-  std::string bakedFile;         ///< Morphing: of `catoptric bake`; empty: baked where the eye is
-  bool allDynamic = false;       ///< Morphing: every vertex counts as moving
-  bool withSeen = true;          ///< read back what is seen at each pixel
+  int environmentMapSize = 512;              ///< Environment: edge of a cube face, texels
+  std::string bakedFile;                     ///< Morphing: of `catoptric bake`; empty: baked where the eye is
+  bool allDynamic = false;                   ///< Morphing: every vertex counts as moving
+  depth_reflection_map::ZexelOptions zexel;  ///< Zexel only
+  bool withSeen = true;                      ///< read back what is seen at each pixel
   /// RayTrace: once it is true, which any thread may make it, the frame ends early and is of no use.
   const std::atomic<bool>* cancel = nullptr;
 };
@@ -53,6 +55,8 @@ struct FrameTimings {
   double reflectionMs = 0;       ///< everything else
   double virtualVerticesMs = 0;  ///< of which: finding reflection points, or where triangles may be seen
   double lookUpMs = 0;           ///< Morphing: look-ups in the octrees, not part of virtualVerticesMs
+  double warpMs = 0;             ///< of which: warping zexels
+  double captureMs = 0;          ///< of which: taking reference images
 };
 
 struct FrameCounters {
@@ -61,7 +65,11 @@ struct FrameCounters {
   std::uint64_t fragmentTests = 0;     ///< Exact: pixels that met a triangle offered to them, or did not
   std::uint64_t lookedUpVertices = 0;  ///< Morphing: searched in the octrees in this frame
   std::uint64_t reflectorsDrawn = 0, reflectorsCulled = 0;
-  std::uint64_t rays = 0;  ///< RayTrace only
+  std::uint64_t rays = 0;             ///< RayTrace only
+  std::uint64_t zexels = 0;           ///< warped
+  std::uint64_t zexelPixels = 0;      ///< mirror pixels that zexels were warped to show
+  std::uint64_t uncoveredPixels = 0;  ///< of which no zexel reached
+  std::uint64_t zexelCaptures = 0;    ///< reference images taken
 };
 
 struct Frame {

@@ -16,6 +16,8 @@ std::string_view methodName(Method method) {
       return "virtual";
     case Method::Morphing:
       return "morphing";
+    case Method::Zexel:
+      return "zexel";
     case Method::RayTrace:
       return "raytrace";
   }

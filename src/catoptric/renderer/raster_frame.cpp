@@ -160,6 +160,7 @@ std::vector<raster::Chain> RasterFrame::findChains(const raster::Level& level,
 
 raster::ReflectionMethod* RasterFrame::pickMethod(const raster::Chain& chain, const FrameOptions& options) {
   if (options.method == Method::Environment) return &environment_;
+  if (options.method == Method::Zexel && zexel_.supports(chain)) return &zexel_;
   const bool isMorphing = options.method == Method::Morphing;
   const bool needsExact =
       chain.hasSecondCurved ||
@@ -183,7 +184,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
                                surfaces_, primary_,
                                compose_,  chooseNearPlane(geometry_, camera),
                                jitterPx,  options.maxErrorPx,
-                               counters};
+                               counters,  {}};
 
   // 1
   primary_.draw(scene_, camera, context.nearPlane, jitterPx, *levels_[0]);
@@ -196,6 +197,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   exact_.prepare(context);
   environment_.prepare(context);
   if (options.method == Method::Morphing) morphing_.prepare(context);
+  zexel_.prepare(context);
   std::vector<raster::Chain> parents{raster::makeEyeChain()};
   int levelCount = 1;
   std::uint64_t visibleReflectors = 0;
@@ -204,6 +206,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
     const std::vector<raster::Chain> chains = findChains(*levels_[std::size_t(level)], parents);
     if (level == 0) visibleReflectors = chains.size();
     if (chains.empty()) break;
+    context.parentIds = idsPixels_;
     prepareLevels(level + 2, options.widthPx, options.heightPx);
     // 3, 4
     raster::Level& target = *levels_[std::size_t(level) + 1];
@@ -229,6 +232,12 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   frame.counters.virtualVertices += counters.virtualVertices;
   frame.counters.virtualTriangles += counters.virtualTriangles;
   frame.counters.fragmentTests += counters.fragmentTests;
+  frame.timings.warpMs += counters.warpMs;
+  frame.timings.captureMs += counters.captureMs;
+  frame.counters.zexels += counters.zexels;
+  frame.counters.zexelPixels += counters.zexelPixels;
+  frame.counters.uncoveredPixels += counters.uncoveredPixels;
+  frame.counters.zexelCaptures += counters.zexelCaptures;
   frame.counters.reflectorsDrawn = visibleReflectors;
   frame.counters.reflectorsCulled = geometry_.reflectors.size() - visibleReflectors;
 }
@@ -279,6 +288,7 @@ Frame RasterFrame::render(const scene::CameraFrame& camera, const FrameOptions& 
   prepareLevels(1, options.widthPx, options.heightPx);
   virtual_.setSolver(virtualObjectSolver(options.solver));
   if (options.method == Method::Morphing) prepareMorphing(options);
+  zexel_.setOptions(options.zexel);
   environment_.setOptions(options.environmentMapSize, options.boxCorrected);
   frame.radiance = core::ImageRgbaF(options.widthPx, options.heightPx, vec4(0, 0, 0, 1));
   const raster::Level& level = *levels_[0];

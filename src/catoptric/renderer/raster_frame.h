@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "catoptric/depth_reflection_map/depth_reflection_map_method.h"
 #include "catoptric/environment_map/environment_map_method.h"
 #include "catoptric/gl/context.h"
 #include "catoptric/planar_mirror/planar_mirror_method.h"
@@ -49,6 +50,7 @@ class RasterFrame {
   environment_map::EnvironmentMapMethod environment_;
   reflection_morphing::ReflectionMorphingMethod morphing_;
   std::string morphingSource_;  ///< what morphing_ has its locations from
+  depth_reflection_map::DepthReflectionMapMethod zexel_;
   std::vector<std::unique_ptr<raster::Level>> levels_;
   std::vector<uvec2> idsPixels_;
   std::uint32_t lastChain_ = 0;

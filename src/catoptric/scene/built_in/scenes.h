@@ -21,5 +21,6 @@ namespace catoptric::scene::built_in {
 [[nodiscard]] Scene makeVase();
 [[nodiscard]] Scene makeWavyWall();
 [[nodiscard]] Scene makeColumns();
+[[nodiscard]] Scene makeFurnishedRoom();
 
 }  // namespace catoptric::scene::built_in

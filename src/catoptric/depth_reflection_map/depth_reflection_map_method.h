@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Mirrors from depth-preserving reflection maps (Bastos & Stuerzlinger 1998). Flat ones: at most two
+// reference images of a hemisphere behind the mirror are warped to the mirrored eye, on the processor. Curved
+// ones: by inverse warping, on the GPU. The scene itself is drawn only when a reference image is taken.
+// README.md has the limits and the figures.
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "catoptric/depth_reflection_map/forward_warp.h"
+#include "catoptric/depth_reflection_map/inverse_warp.h"
+#include "catoptric/depth_reflection_map/reference_image.h"
+
+namespace catoptric::depth_reflection_map {
+
+class DepthReflectionMapMethod : public raster::ReflectionMethod {
+ public:
+  DepthReflectionMapMethod();
+  [[nodiscard]] std::string_view name() const override { return "zexel"; }
+  [[nodiscard]] bool supports(const raster::Chain&) const override { return true; }
+  /// Reference images are kept unless hemisphere or size differ.
+  void setOptions(const ZexelOptions& options);
+  void prepare(raster::FrameContext&) override {}
+  void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
+              raster::Level& target) override;
+
+ private:
+  /// The hemispheres behind one side of a mirror.
+  struct Window {
+    MirrorWindow window;
+    std::map<int, std::vector<dvec3>> shells;
+    WinnerImage lastWinners;  ///< of the frame before, and which references they are of
+    std::vector<ReferenceKey> lastKeys;
+  };
+  /// One of the (at most two) reference images nearest to the mirrored eye.
+  struct Nearest {
+    ReferenceKey key;
+    dvec3 centre{0};
+    double distance = 0;
+  };
+  Window& findNearest(const raster::FrameContext& frame, const raster::Chain& chain,
+                      const dvec3& mirroredEye);
+  void warpReferences(raster::FrameContext& frame, const Pinhole& view, const PixelRectangle& rectangle);
+  void keepLastFrame(Window& window);
+  void countCoverage(raster::FrameContext& frame, const raster::Chain& chain) const;
+  void resolve(const raster::Chain& chain, const raster::Level& parent, const raster::Level& target);
+
+  ZexelOptions options_;
+  raster::MirrorBackgroundPass background_;
+  gl::Program program_;
+  gl::VertexArray nothing_;
+  std::unique_ptr<gl::Texture> winnersTexture_;
+  ReferenceCache cache_;
+  std::map<std::pair<std::uint32_t, bool>, Window> windows_;  ///< reflector, seen from behind
+  std::vector<Nearest> nearest_;
+  ForwardWarp warp_;
+  InverseWarp inverse_;
+  WinnerImage winners_, secondWinners_;
+  int level_ = 0;  ///< of the hierarchical map
+};
+
+}  // namespace catoptric::depth_reflection_map

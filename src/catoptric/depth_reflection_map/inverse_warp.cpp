@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "catoptric/depth_reflection_map/inverse_warp.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <string>
+
+namespace catoptric::depth_reflection_map {
+namespace {
+
+constexpr double kOpenFrom = 0.3;  // length of the mean normal; a closed surface has 0
+constexpr double kBefore = 0.15;   // of an open surface's radius
+constexpr double kAround = 1.02;   // of the radius
+constexpr float kTexelsPerStep = 2.5f;
+
+}  // namespace
+
+std::vector<dvec3> makeCubeCentres(const scene::WorldGeometry& world, std::uint32_t reflector,
+                                   const dvec3& eye) {
+  const scene::Reflector& mirror = world.reflectors[reflector];
+  const scene::Part& part = world.parts[mirror.part];
+  dvec3 middle(0), normal(0);
+  double facing = 0;
+  for (std::uint32_t v = part.firstVertex; v < part.firstVertex + part.vertexCount; ++v) {
+    const dvec3 p(world.positions[v]), n(world.normals[v]);
+    middle += p;
+    normal += n;
+    facing += glm::dot(n, eye - p) > 0.0 ? 1.0 : -1.0;
+  }
+  const double count = std::max<double>(part.vertexCount, 1);
+  middle /= count;
+  normal *= (mirror.doubleSided && facing < 0.0 ? -1.0 : 1.0) / count;
+  const bool isOpen = glm::length(normal) > kOpenFrom;
+  std::vector<dvec3> centres{isOpen ? middle + kBefore * mirror.radius * glm::normalize(normal)
+                                    : mirror.centre};
+  for (const dvec3& axis : {dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(0, 0, 1)})
+    for (const double sign : {1.0, -1.0}) {
+      if (isOpen && glm::dot(sign * axis, normal) < 0.0) continue;  // would be behind it
+      centres.push_back(centres[0] + sign * kAround * mirror.radius * axis);
+    }
+  return centres;
+}
+
+InverseWarp::InverseWarp() : program_("raster/screen.vert", "depth_reflection_map/inverse_warp.frag") {}
+
+void InverseWarp::setOptions(const ZexelOptions& options) {
+  const int size = std::max(8, 3 * options.size / 4);
+  if (size != sizeTexels_) cubes_.clear();
+  sizeTexels_ = size;
+  references_ = options.references;
+  maxBytes_ = options.maxBytes;
+}
+
+void InverseWarp::evict() {
+  while (cubes_.size() > 2 && cubes_.size() * cubes_.begin()->second.cube->bytes() > maxBytes_)
+    cubes_.erase(std::min_element(cubes_.begin(), cubes_.end(), [](const auto& a, const auto& b) {
+      return a.second.lastUse < b.second.lastUse;
+    }));
+}
+
+const raster::SceneCube& InverseWarp::takeCube(raster::FrameContext& frame, std::uint32_t reflector,
+                                               int index, const dvec3& centre) {
+  Kept& kept = cubes_[{reflector, index}];
+  kept.lastUse = ++now_;
+  if (kept.cube && kept.cube->centre == centre) return *kept.cube;
+  const auto start = std::chrono::steady_clock::now();
+  if (!kept.cube) kept.cube = std::make_unique<raster::SceneCube>(sizeTexels_);
+  raster::SceneCube& cube = *kept.cube;
+  const double radius = frame.scene.geometry().reflectors[reflector].radius;
+  capture_.draw(frame, centre, 1e-3 * std::max(radius, 1e-3), reflector, cube);
+  const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+  frame.counters.captureMs += spent.count();
+  ++frame.counters.zexelCaptures;
+  evict();
+  return cube;
+}
+
+void InverseWarp::render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
+                         const raster::Level& target) {
+  // 1, 2
+  const dvec3 eye = dvec3(glm::inverse(chain.screenFromDraw) * dvec4(frame.camera.eye, 1.0));
+  const std::vector<dvec3> centres = makeCubeCentres(frame.scene.geometry(), chain.last, eye);
+  int second = 0;
+  for (int i = 1; i < int(centres.size()); ++i)
+    if (second == 0 ||
+        glm::length(centres[std::size_t(i)] - eye) < glm::length(centres[std::size_t(second)] - eye))
+      second = i;
+  const int count = second > 0 ? references_ : 1;
+  std::array<const raster::SceneCube*, 2> cubes{};
+  cubes[0] = &takeCube(frame, chain.last, 0, centres[0]);
+  cubes[1] = count > 1 ? &takeCube(frame, chain.last, second, centres[std::size_t(second)]) : cubes[0];
+
+  // 3
+  target.surfaces.bind();
+  gl::setScissor(chain.bounds);
+  gl::setDrawState({.depthTest = false, .depthWrite = false});
+  program_.use();
+  parent.bindAsParent(program_);
+  program_.set("u_parentWord", chain.parentWord());
+  program_.set("u_chain", chain.id);
+  program_.set("u_step", kTexelsPerStep * 1.5707963f / float(sizeTexels_));
+  program_.set("u_cubeCount", count);
+  int unit = raster::kUnitFirstFree + 4;
+  for (std::size_t i = 0; i < cubes.size(); ++i) {
+    const std::string suffix(1, char('0' + i));
+    const std::array<std::pair<const char*, const gl::Texture*>, 3> textures{
+        {{"u_color", &cubes[i]->color}, {"u_position", &cubes[i]->position}, {"u_ids", &cubes[i]->ids}}};
+    for (const auto& [name, texture] : textures) {
+      texture->bind(unit);
+      program_.set(name + suffix, unit++);
+    }
+    program_.set("u_centre" + suffix, vec3(cubes[i]->centre));
+  }
+  nothing_.bind();
+  gl::drawScreen();
+}
+
+}  // namespace catoptric::depth_reflection_map

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "catoptric/depth_reflection_map/reference_image.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <chrono>
+
+namespace catoptric::depth_reflection_map {
+namespace {
+
+int mipLevels(int width, int height) {
+  return std::bit_width(unsigned(std::max(width, height)));
+}
+
+gl::SamplerState smooth() {
+  return {gl::TextureWrap::ClampToEdge, gl::TextureWrap::ClampToEdge, false, false, true};
+}
+
+}  // namespace
+
+ReferenceImage::ReferenceImage(const ReferenceCamera& referenceCamera)
+    : camera(referenceCamera),
+      color(gl::TextureKind::Flat, gl::Format::Rgba16F, camera.width, camera.height, 1,
+            mipLevels(camera.width, camera.height), smooth()),
+      zexels(gl::TextureKind::Flat, gl::Format::Rg32Ui, camera.width, camera.height, 1, 1,
+             gl::SamplerState{}) {}
+
+std::size_t ReferenceImage::bytes() const {
+  const std::size_t count = std::size_t(camera.width) * std::size_t(camera.height);
+  return count * (8 + 8) + count * 8 / 3 + map.bytes();
+}
+
+ReferenceCache::ReferenceCache()
+    : program_("raster/screen.vert", "depth_reflection_map/zexel_capture.frag") {}
+
+std::size_t ReferenceCache::bytes() const {
+  std::size_t sum = 0;
+  for (const auto& [key, image] : images_) sum += image->bytes();
+  return sum;
+}
+
+void ReferenceCache::evict() {
+  while (images_.size() > 2 && bytes() > maxBytes_)
+    images_.erase(std::min_element(images_.begin(), images_.end(), [](const auto& a, const auto& b) {
+      return a.second->lastUse < b.second->lastUse;
+    }));
+}
+
+void ReferenceCache::capture(raster::FrameContext& frame, std::uint32_t reflector, ReferenceImage& image) {
+  const ReferenceCamera& camera = image.camera;
+  if (!level_ || level_->widthPx != camera.width || level_->heightPx != camera.height)
+    level_ = std::make_unique<raster::Level>(camera.width, camera.height);
+  frame.primary.draw(frame.scene, camera.makeView(), *level_, reflector);
+  frame.compose.draw(frame.scene, *level_, nullptr);
+
+  const std::array<const gl::Texture*, 2> targets{&image.color, &image.zexels};
+  const gl::Framebuffer framebuffer(targets, nullptr);
+  framebuffer.bind();
+  gl::setDrawState({.depthTest = false, .depthWrite = false});
+  program_.use();
+  int unit = raster::kUnitFirstFree;
+  const std::array<std::pair<const char*, const gl::Texture*>, 3> sources{
+      {{"u_color", &level_->color}, {"u_position", &level_->seenPosition}, {"u_ids", &level_->seenIds}}};
+  for (const auto& [name, texture] : sources) {
+    texture->bind(unit);
+    program_.set(name, unit++);
+  }
+  program_.set("u_centre", vec3(camera.centre));
+  program_.set("u_forward", vec3(camera.forward));
+  program_.set("u_planeDistance", float(camera.planeDistance));
+  nothing_.bind();
+  gl::drawScreen();
+
+  std::vector<uvec2> zexels(std::size_t(camera.width) * std::size_t(camera.height));
+  framebuffer.readPixels(1, std::span<uvec2>(zexels));
+  std::vector<float> disparities(zexels.size());
+  std::transform(zexels.begin(), zexels.end(), disparities.begin(),
+                 [](const uvec2& zexel) { return std::bit_cast<float>(zexel.x); });
+  image.map = makeZexelMap(camera.width, camera.height, disparities);
+  image.color.generateMipmaps();
+}
+
+ReferenceImage& ReferenceCache::take(raster::FrameContext& frame, const ReferenceKey& key,
+                                     const ReferenceCamera& camera) {
+  std::unique_ptr<ReferenceImage>& slot = images_[key];
+  const bool isNew = !slot;
+  if (isNew) {
+    const auto start = std::chrono::steady_clock::now();
+    slot = std::make_unique<ReferenceImage>(camera);
+    capture(frame, key.reflector, *slot);
+    const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+    frame.counters.captureMs += spent.count();
+    ++frame.counters.zexelCaptures;
+  }
+  ReferenceImage& image = *slot;
+  image.lastUse = ++now_;
+  if (isNew) evict();
+  return image;
+}
+
+}  // namespace catoptric::depth_reflection_map
