@@ -45,15 +45,17 @@ class Motion(support.CommandTest):
             self.assertLess(int(row[48 * channels]) - int(row[48 * channels + 1]), 20, method)
 
     def test_a_sequence_shows_what_single_pictures_show(self):
-        document = self.json_of("render", "moving.gltf", "-o", "out_####.png", "--frames", "3", "--fps", "1",
-                                *support.SMALL)
-        self.assertEqual([frame["time_s"] for frame in document["frames"]], [0, 1, 2])
-        self.assertEqual([frame["files"]["picture"] for frame in document["frames"]],
-                         ["out_0000.png", "out_0001.png", "out_0002.png"])
-        for i in range(3):
-            self.succeed("render", "moving.gltf", "-o", "one.png", "--time", str(i), *support.SMALL)
-            self.assertEqual(self.read("one.png"), self.read(f"out_{i:04}.png"), i)
-        self.assertNotEqual(self.read("out_0000.png"), self.read("out_0002.png"))
+        for method in (("--method", "auto"), ("--solver", "exact"), ("--method", "zexel"), ("--method", "environment"),
+                       ("--method", "raytrace")):
+            document = self.json_of("render", "moving.gltf", "-o", "out_####.png", "--frames", "3", "--fps", "1", *method,
+                                    *support.SMALL)
+            self.assertEqual([frame["time_s"] for frame in document["frames"]], [0, 1, 2])
+            self.assertEqual([frame["files"]["picture"] for frame in document["frames"]],
+                             ["out_0000.png", "out_0001.png", "out_0002.png"])
+            for i in range(3):
+                self.succeed("render", "moving.gltf", "-o", "one.png", "--time", str(i), *method, *support.SMALL)
+                self.assertEqual(self.read("one.png"), self.read(f"out_{i:04}.png"), (method, i))
+            self.assertNotEqual(self.read("out_0000.png"), self.read("out_0002.png"), method)
 
     def test_wrong_use(self):
         self.refuse(2, "out_####.png", "render", "moving.gltf", "-o", "a.png", "--frames", "2", *support.SMALL)

@@ -23,7 +23,11 @@ using RasterPass = GlTest;
 constexpr int kSizePx = 96;
 
 renderer::FrameOptions optionsFor(int bounces) {
-  return {.method = renderer::Method::Virtual, .widthPx = kSizePx, .heightPx = kSizePx, .bounces = bounces};
+  renderer::FrameOptions options;
+  options.method = renderer::Method::Virtual;
+  options.widthPx = options.heightPx = kSizePx;
+  options.bounces = bounces;
+  return options;
 }
 
 renderer::Frame rasterize(const TracedTestScene& t, const scene::WorldGeometry& world, int bounces) {

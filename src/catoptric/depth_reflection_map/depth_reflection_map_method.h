@@ -23,6 +23,12 @@ class DepthReflectionMapMethod : public raster::ReflectionMethod {
   /// Reference images are kept unless hemisphere or size differ.
   void setOptions(const ZexelOptions& options);
   void prepare(raster::FrameContext&) override {}
+  /// Something moved: all reference images are taken anew.
+  void geometryChanged() override {
+    cache_.clear();
+    windows_.clear();
+    inverse_.clear();
+  }
   void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
               raster::Level& target) override;
 

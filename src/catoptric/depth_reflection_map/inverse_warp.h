@@ -35,6 +35,7 @@ class InverseWarp {
  public:
   InverseWarp();
   void setOptions(const ZexelOptions& options);
+  void clear() { cubes_.clear(); }
   void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
               const raster::Level& target);
 

@@ -21,6 +21,11 @@ class ReflectionMorphingMethod : public raster::ReflectionMethod {
   /// with fewer bounces, eye outside the grid) are left to the next method of the table.
   [[nodiscard]] bool supports(const raster::Chain& chain) const override;
   void setSource(std::shared_ptr<const LocationSource> source);
+  /// Asks for a new source: the mirrors may have moved, and then the old one is of no use.
+  void geometryChanged() override {
+    setSource(nullptr);
+    objects_.clear();
+  }
   [[nodiscard]] bool hasSource() const { return source_ != nullptr; }
   /// True: every vertex counts as moving and is looked up anew in every frame.
   void setDynamic(bool dynamic) { dynamic_ = dynamic; }

@@ -106,8 +106,8 @@ RasterFrame::RasterFrame(gl::Context& context, const scene::Scene& scene,
 void RasterFrame::updateGeometry(std::span<const std::uint32_t> movedParts) {
   scene_.updateGeometry(movedParts);
   primary_.geometryChanged();
-  for (raster::ReflectionMethod* method :
-       std::initializer_list<raster::ReflectionMethod*>{&planar_, &virtual_, &environment_})
+  for (raster::ReflectionMethod* method : std::initializer_list<raster::ReflectionMethod*>{
+           &planar_, &virtual_, &exact_, &environment_, &morphing_, &zexel_})
     method->geometryChanged();
 }
 

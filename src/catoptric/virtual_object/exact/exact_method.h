@@ -41,6 +41,10 @@ class ExactMethod : public raster::ReflectionMethod {
   [[nodiscard]] std::string_view name() const override { return "virtual"; }
   [[nodiscard]] bool supports(const raster::Chain& chain) const override { return chain.curved.has_value(); }
   void prepare(raster::FrameContext&) override { raysOf_ = nullptr; }
+  void geometryChanged() override {
+    tiles_.reset();
+    triangles_.reset();
+  }
   void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
               raster::Level& target) override;
 
