@@ -41,7 +41,8 @@ core::Box parseBox(const std::string& option, const std::string& text) {
   for (int axis = 0; axis < 3; ++axis) {
     box.lower[axis] = parseNumber(option, words[std::size_t(axis)], -1e15, 1e15);
     box.upper[axis] = parseNumber(option, words[std::size_t(axis) + 3], -1e15, 1e15);
-    if (!(box.lower[axis] < box.upper[axis])) throw UsageError(option + ": '" + text + "' is an empty box");
+    if (!(box.lower[axis] < box.upper[axis]))
+      throw UsageError(fmt::format("{}: '{}' is an empty box", option, text));
   }
   return box;
 }
@@ -53,7 +54,7 @@ glm::uvec3 parseCounts(const std::string& option, const std::string& text) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto cross = rest.find('x');
     if ((cross == std::string::npos) != (axis == 2))
-      throw UsageError(option + ": '" + text + "' is not three counts, as in 8x4x8");
+      throw UsageError(fmt::format("{}: '{}' is not three counts, as in 8x4x8", option, text));
     counts[axis] = std::uint32_t(parseInteger(option, rest.substr(0, cross), 2, kMostCounts));
     rest = axis == 2 ? "" : rest.substr(cross + 1);
   }

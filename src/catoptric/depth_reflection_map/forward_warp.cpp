@@ -34,7 +34,8 @@ bool mayBeVisible(const dmat3& pixelFromZexel, const dvec3& perDisparity, const 
     least = glm::min(least, dvec2(h) / h.z);
     largest = glm::max(largest, dvec2(h) / h.z);
   }
-  constexpr double kReach = WinnerImage::kBorder / 2;
+  constexpr int kHalfBorder = WinnerImage::kBorder / 2;
+  constexpr double kReach = kHalfBorder;
   return largest.x > kReach && largest.y > kReach && least.x < image.stride - kReach &&
          least.y < image.rows - kReach;
 }

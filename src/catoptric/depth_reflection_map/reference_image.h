@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <tuple>
 
 #include "catoptric/depth_reflection_map/reference_camera.h"
 #include "catoptric/depth_reflection_map/zexel_map.h"
@@ -30,7 +31,13 @@ struct ReferenceKey {
   bool isFromBehind = false;  ///< of a double-sided mirror
   int shell = 0, index = 0;
 
-  auto operator<=>(const ReferenceKey&) const = default;
+  friend bool operator==(const ReferenceKey& a, const ReferenceKey& b) { return a.order() == b.order(); }
+  friend bool operator<(const ReferenceKey& a, const ReferenceKey& b) { return a.order() < b.order(); }
+
+ private:
+  [[nodiscard]] std::tuple<std::uint32_t, bool, int, int> order() const {
+    return {reflector, isFromBehind, shell, index};
+  }
 };
 
 /// Takes reference images when they are asked for and keeps them, the ones used last, under a bound.

@@ -100,8 +100,9 @@ void splat(const ZexelChunk& chunk, const Landing& landing, WinnerImage& out) {
     const std::uint32_t winner = chunk.firstWinner + std::uint32_t(i) * chunk.winnerStep;
     if constexpr (S == Splat::Footprint) {
       const float halfX = landing.halfX[lane], halfY = landing.halfY[lane];
-      fill<V>(out, int(x - halfX + 0.5f), int(x + halfX - 0.5f), int(y - halfY + 0.5f), int(y + halfY - 0.5f),
-              winner, landing.nearness[lane]);
+      const float firstX = x - halfX + 0.5f, lastX = x + halfX - 0.5f;
+      const float firstY = y - halfY + 0.5f, lastY = y + halfY - 0.5f;
+      fill<V>(out, int(firstX), int(lastX), int(firstY), int(lastY), winner, landing.nearness[lane]);
     } else {
       constexpr int kRadius = S == Splat::Square ? 1 : 0;
       const int column = int(x), row = int(y);

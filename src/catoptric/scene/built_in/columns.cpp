@@ -13,7 +13,6 @@ namespace catoptric::scene::built_in {
 namespace {
 
 using geometry::moveBy;
-using geometry::turnAround;
 
 const dvec3 kHallSize(8, 3.4, 8);
 constexpr int kColumnCount = 8;
