@@ -111,7 +111,7 @@ Answer follow(samplerCube position, usamplerCube ids, vec3 centre, vec3 p, vec3 
         float a = k == 0 ? high : low;
         vec3 m = cos(a) * e1 + sin(a) * e2;
         if (textureLod(ids, m, 0.0f).x == 0u) continue;
-        float t;
+        float t = 0.0f;
         if (meetTexelPlane(position, ids, centre, p, r, m, cross(e1, e2), texel, t)) {
           answer.t = t;
           answer.object = textureLod(ids, m, 0.0f).x;
