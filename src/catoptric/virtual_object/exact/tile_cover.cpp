@@ -47,7 +47,7 @@ void TileCover::compute(const RayImages& rays, const CoverQuery& query, Cover& c
   const int x0 = query.x / kEdge, y0 = query.y / kEdge;
   const int columns = (query.x + query.width - 1) / kEdge - x0 + 1,
             rows = (query.y + query.height - 1) / kEdge - y0 + 1;
-  const auto count = std::size_t(columns * rows);
+  const auto count = std::size_t(columns) * std::size_t(rows);
   if (roots_.size() < count) roots_.resize(count);
   const Job job{rays, query};
   core::parallelFor(count, 1, [&](std::size_t begin, std::size_t end) {
