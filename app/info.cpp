@@ -19,24 +19,6 @@ struct Options {
   OutputOptions output;
 };
 
-std::string shapeName(scene::ReflectorShape shape) {
-  switch (shape) {
-    case scene::ReflectorShape::Plane:
-      return "plane";
-    case scene::ReflectorShape::Sphere:
-      return "sphere";
-    case scene::ReflectorShape::Cylinder:
-      return "cylinder";
-    case scene::ReflectorShape::Cone:
-      return "cone";
-    case scene::ReflectorShape::Extrusion:
-      return "extrusion";
-    case scene::ReflectorShape::Mesh:
-      return "mesh";
-  }
-  return "mesh";
-}
-
 std::string methodText(const renderer::MethodChoice& choice) {
   std::string text(renderer::methodName(choice.method));
   const bool isCurved = choice.method == renderer::Method::Virtual && choice.solver != renderer::Solver::Auto;
@@ -48,7 +30,7 @@ Json describeReflector(const LoadedScene& loaded, const scene::Reflector& reflec
   const bool hasMaterial =
       reflector.material >= 0 && std::size_t(reflector.material) < loaded.scene.materials.size();
   return {{"name", reflector.name},
-          {"shape", shapeName(reflector.shape)},
+          {"shape", std::string(scene::shapeName(reflector.shape))},
           {"fit_error", reflector.fitError},
           {"convex", reflector.isConvex},
           {"double_sided", reflector.doubleSided},
@@ -126,9 +108,9 @@ std::string makeReflectorTable(const LoadedScene& loaded) {
   std::string reasons;
   for (const scene::Reflector& reflector : reflectors) {
     const renderer::MethodChoice choice = renderer::Renderer::chooseMethod(reflector);
-    rows.push_back({reflector.name, shapeName(reflector.shape), fmt::format("{:.2g}", reflector.fitError),
-                    reflector.isConvex ? "yes" : "no", fmt::format("{:.4g}", reflector.radius),
-                    fmt::format("{:.4g}", reflector.areaWorld),
+    rows.push_back({reflector.name, std::string(scene::shapeName(reflector.shape)),
+                    fmt::format("{:.2g}", reflector.fitError), reflector.isConvex ? "yes" : "no",
+                    fmt::format("{:.4g}", reflector.radius), fmt::format("{:.4g}", reflector.areaWorld),
                     std::to_string(loaded.geometry.parts.at(reflector.part).indexCount / 3),
                     methodText(choice)});
     reasons += fmt::format("{}: a mirror by {}; {} because {}\n", withoutControlCharacters(reflector.name),
@@ -136,7 +118,7 @@ std::string makeReflectorTable(const LoadedScene& loaded) {
     if (reflector.shape == scene::ReflectorShape::Plane) continue;
     reasons += choice.analytic.empty()
                    ? fmt::format("  solver analytic: the {} that its vertices leave by at most {:.2g} m\n",
-                                 shapeName(reflector.shape), reflector.fitError)
+                                 scene::shapeName(reflector.shape), reflector.fitError)
                    : fmt::format("  solver analytic: not possible, {}; refined is used\n", choice.analytic);
   }
   return "\n" + formatTable(rows, usesColour(stdout)) + "\n" + reasons;

@@ -11,22 +11,10 @@ namespace {
 
 constexpr float kMapEdge = 200, kMapsWidth = 3 * kMapEdge + 50;  // three maps, gaps, borders
 
-const char* shapeName(const scene::Reflector& reflector) {
-  switch (reflector.shape) {
-    case scene::ReflectorShape::Plane:
-      return "plane";
-    case scene::ReflectorShape::Sphere:
-      return "sphere";
-    case scene::ReflectorShape::Cylinder:
-      return "cylinder";
-    case scene::ReflectorShape::Cone:
-      return "cone";
-    case scene::ReflectorShape::Extrusion:
-      return reflector.isConvex ? "convex extrusion" : "extrusion";
-    case scene::ReflectorShape::Mesh:
-      return reflector.isConvex ? "convex mesh" : "mesh";
-  }
-  return "?";
+std::string describeShape(const scene::Reflector& reflector) {
+  const bool isFreeForm =
+      reflector.shape == scene::ReflectorShape::Extrusion || reflector.shape == scene::ReflectorShape::Mesh;
+  return (isFreeForm && reflector.isConvex ? "convex " : "") + std::string(scene::shapeName(reflector.shape));
 }
 
 bool isMirrorNow(const Model& model, const std::string& name) {
@@ -54,7 +42,7 @@ void drawReflectorRow(Model& model, const scene::Reflector& reflector) {
     model.wishes.load = switchMirror(model, reflector.name, on);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", reflector.reason.c_str());
   ImGui::TableNextColumn();
-  ImGui::TextUnformatted(shapeName(reflector));
+  ImGui::TextUnformatted(describeShape(reflector).c_str());
   ImGui::TableNextColumn();
   const renderer::MethodChoice choice = renderer::Renderer::chooseMethod(reflector);
   ImGui::TextUnformatted(

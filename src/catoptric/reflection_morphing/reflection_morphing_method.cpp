@@ -23,8 +23,7 @@ ReflectionMorphingMethod::Objects::Objects(const scene::WorldGeometry& world, st
     : maxErrorPx(maxError),
       objects(raster::tessellateForReflector(world, reflector,
                                              raster::TessellationOptions{.maxErrorPx = maxError})),
-      streams(objects),
-      blendedStreams(objects),
+      pass(objects),
       virtualPositions(objects.positions.size()),
       mirrorPoints(objects.positions.size()) {}
 
@@ -105,39 +104,6 @@ void ReflectionMorphingMethod::morph(raster::FrameContext& frame, const raster::
   frame.counters.virtualVerticesMs += millisecondsSince(start);
 }
 
-void ReflectionMorphingMethod::draw(raster::FrameContext& frame, const raster::Chain& chain,
-                                    const raster::Level& parent, raster::Level& target, Objects& o) {
-  o.streams.setDrawPositions(o.virtualPositions);
-  o.streams.setIndices(o.triangles.indices, true);
-  o.opaque.clear();
-  o.blended.clear();
-  for (const raster::TessellatedPart& part : o.triangles.parts)
-    (frame.scene.isBlended(part.part) ? o.blended : o.opaque)
-        .push_back({part.part, part.firstIndex, part.indexCount});
-  const dvec3 eye = frame.camera.eye;
-  raster::SurfaceView view;
-  view.clipFromDraw = raster::makeClipFromWorld(frame.camera, frame.nearPlane, frame.jitterPx);
-  view.eye = view.drawEye = eye;
-  view.windingFlipped = chain.level % 2 == 1;
-  view.chain = &chain;
-  view.parent = &parent;
-  const scene::Reflector& last = frame.scene.geometry().reflectors[chain.last];
-  if (last.shape ==
-      scene::ReflectorShape::Plane) {  // shows what is before it, on the side of the mirror before
-    const dvec3 before = frame.scene.geometry().reflectors[chain.mirrors[chain.mirrors.size() - 2]].centre;
-    const double side = last.plane.signedDistance(before) > 0.0 ? 1.0 : -1.0;
-    view.clipPlane = vec4(vec3(side * last.plane.normal), float(side * last.plane.offset));
-    view.excludedReflector = chain.last;
-  }
-  frame.surfaces.draw(frame.scene, o.streams, o.opaque, view, target);
-  if (o.blended.empty()) return;
-  raster::sortBlendedTriangles(o.blended, o.triangles.indices, o.virtualPositions, eye, o.sortedIndices,
-                               o.sorted);
-  o.blendedStreams.setDrawPositions(o.virtualPositions);
-  o.blendedStreams.setIndices(o.sortedIndices, true);
-  frame.surfaces.drawBlended(frame.scene, o.blendedStreams, o.sorted, view, target);
-}
-
 void ReflectionMorphingMethod::render(raster::FrameContext& frame, const raster::Chain& chain,
                                       const raster::Level& parent, raster::Level& target) {
   // 1
@@ -157,11 +123,17 @@ void ReflectionMorphingMethod::render(raster::FrameContext& frame, const raster:
   // theirs are not judged.
   const std::span<const vec3> scenePoints =
       chain.mirrors.size() > 1 ? std::span<const vec3>(objects.mirrorPoints) : std::span<const vec3>();
-  raster::selectVirtualTriangles(objects.objects, frame.camera.eye, objects.virtualPositions,
-                                 corners_[chain.mirrors].kinds, objects.mirrorPoints, objects.triangles,
-                                 scenePoints);
-  frame.counters.virtualTriangles += objects.triangles.indices.size() / 3;
-  draw(frame, chain, parent, target, objects);
+  raster::SurfaceView view;
+  view.clipFromDraw = raster::makeClipFromWorld(frame.camera, frame.nearPlane, frame.jitterPx);
+  view.eye = view.drawEye = frame.camera.eye;
+  view.windingFlipped = chain.level % 2 == 1;
+  view.chain = &chain;
+  view.parent = &parent;
+  if (reflectors[chain.last].shape == scene::ReflectorShape::Plane)
+    raster::clipAtLastMirror(reflectors[chain.last], chain.last,
+                             reflectors[chain.mirrors[chain.mirrors.size() - 2]].centre, view);
+  objects.pass.draw(frame, view, objects.virtualPositions, corners_[chain.mirrors].kinds,
+                    objects.mirrorPoints, scenePoints, target);
 }
 
 }  // namespace catoptric::reflection_morphing

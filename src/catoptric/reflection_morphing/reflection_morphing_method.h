@@ -9,6 +9,7 @@
 
 #include "catoptric/raster/reflection_method.h"
 #include "catoptric/raster/tessellation.h"
+#include "catoptric/raster/virtual_object_pass.h"
 #include "catoptric/reflection_morphing/location_source.h"
 #include "catoptric/reflection_morphing/morphing.h"
 
@@ -40,17 +41,12 @@ class ReflectionMorphingMethod : public raster::ReflectionMethod {
     Objects(const scene::WorldGeometry& world, std::uint32_t reflector, double maxErrorPx);
     double maxErrorPx;
     raster::TessellatedObjects objects;
-    raster::VertexStreams streams, blendedStreams;
+    raster::VirtualObjectPass pass;
     std::vector<vec3> virtualPositions, mirrorPoints;
-    raster::VirtualTriangles triangles;
-    std::vector<raster::DrawRange> opaque, blended, sorted;
-    std::vector<std::uint32_t> sortedIndices;
   };
   Objects& getObjects(const raster::FrameContext& frame, std::uint32_t reflector);
   [[nodiscard]] CellTrace findCellTrace(const std::vector<std::uint32_t>& trace) const;
   void morph(raster::FrameContext& frame, const raster::Chain& chain, Objects& objects);
-  void draw(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
-            raster::Level& target, Objects& objects);
 
   std::shared_ptr<const LocationSource> source_;
   bool dynamic_ = false;

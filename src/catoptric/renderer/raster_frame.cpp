@@ -91,6 +91,16 @@ double chooseNearPlane(const scene::WorldGeometry& geometry, const scene::Camera
   return std::max(0.9 * cosine * nearest, 2e-4 * sceneRadius);
 }
 
+double RasterFrame::findNearPlane(const scene::CameraFrame& camera) {
+  const scene::CameraFrame& last = nearPlaneCamera_;
+  if (nearPlane_ == 0 || last.eye != camera.eye || last.tanHalfFovY != camera.tanHalfFovY ||
+      last.widthPx * camera.heightPx != camera.widthPx * last.heightPx) {
+    nearPlane_ = chooseNearPlane(geometry_, camera);
+    nearPlaneCamera_ = camera;
+  }
+  return nearPlane_;
+}
+
 RasterFrame::RasterFrame(gl::Context& context, const scene::Scene& scene,
                          const scene::WorldGeometry& geometry, const scene::Environment& environment)
     : context_(context),
@@ -105,10 +115,9 @@ RasterFrame::RasterFrame(gl::Context& context, const scene::Scene& scene,
 
 void RasterFrame::updateGeometry(std::span<const std::uint32_t> movedParts) {
   scene_.updateGeometry(movedParts);
+  nearPlane_ = 0;
   primary_.geometryChanged();
-  for (raster::ReflectionMethod* method : std::initializer_list<raster::ReflectionMethod*>{
-           &planar_, &virtual_, &exact_, &environment_, &morphing_, &zexel_})
-    method->geometryChanged();
+  for (raster::ReflectionMethod* method : methods_) method->geometryChanged();
 }
 
 void RasterFrame::prepareLevels(int count, int widthPx, int heightPx) {
@@ -180,11 +189,9 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   const auto start = std::chrono::steady_clock::now();
   const int bounces = options.method == Method::None ? 0 : options.bounces;
   raster::MethodCounters counters;
-  raster::FrameContext context{scene_,    camera,
-                               surfaces_, primary_,
-                               compose_,  chooseNearPlane(geometry_, camera),
-                               jitterPx,  options.maxErrorPx,
-                               counters,  {}};
+  raster::FrameContext context{
+      scene_,   camera, surfaces_, primary_, compose_, findNearPlane(camera), jitterPx, options.maxErrorPx,
+      counters, {}};
 
   // 1
   primary_.draw(scene_, camera, context.nearPlane, jitterPx, *levels_[0]);
@@ -192,12 +199,8 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   frame.timings.primaryMs += millisecondsSince(start);
 
   lastChain_ = 0;
-  planar_.prepare(context);
-  virtual_.prepare(context);
-  exact_.prepare(context);
-  environment_.prepare(context);
-  if (options.method == Method::Morphing) morphing_.prepare(context);
-  zexel_.prepare(context);
+  for (raster::ReflectionMethod* method : methods_)
+    if (method != &morphing_ || options.method == Method::Morphing) method->prepare(context);
   std::vector<raster::Chain> parents{raster::makeEyeChain()};
   int levelCount = 1;
   std::uint64_t visibleReflectors = 0;

@@ -2,6 +2,7 @@
 // A rasterised frame (1998, figure 1): primary image, then level after level of mirrors, then composition.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -37,6 +38,8 @@ class RasterFrame {
   /// Opens the baked file, or makes ready to bake where the eye is.
   void prepareMorphing(const FrameOptions& options);
   void readSeen(const raster::Level& level, Frame& frame) const;
+  /// chooseNearPlane(), once for each place of the eye.
+  [[nodiscard]] double findNearPlane(const scene::CameraFrame& camera);
 
   gl::Context& context_;
   const scene::WorldGeometry& geometry_;
@@ -51,12 +54,18 @@ class RasterFrame {
   reflection_morphing::ReflectionMorphingMethod morphing_;
   std::string morphingSource_;  ///< what morphing_ has its locations from
   depth_reflection_map::DepthReflectionMapMethod zexel_;
+  /// All of them, in no order that matters.
+  std::array<raster::ReflectionMethod*, 6> methods_{&planar_, &virtual_,     &exact_,
+                                                    &zexel_,  &environment_, &morphing_};
+  double nearPlane_ = 0;  ///< of the last camera; 0 = not known
+  scene::CameraFrame nearPlaneCamera_;
   std::vector<std::unique_ptr<raster::Level>> levels_;
   std::vector<uvec2> idsPixels_;
   std::uint32_t lastChain_ = 0;
 };
 
-/// Near plane for a view: half the distance to the nearest surface, within sane bounds.
+/// Near plane for a view: as far away as nothing is cut off, since depth precision goes with it; within sane
+/// bounds. Visits every triangle.
 [[nodiscard]] double chooseNearPlane(const scene::WorldGeometry& geometry, const scene::CameraFrame& camera);
 
 }  // namespace catoptric::renderer

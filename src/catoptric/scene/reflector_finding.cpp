@@ -19,6 +19,10 @@ namespace {
 // A recognised curved shape is looser in its normals than a plane: exporters compute them from the facets.
 constexpr double kCurvedNormalTolerance = 1e-2;  // radians
 
+/// In the order of ReflectorShape.
+constexpr std::array<std::string_view, 6> kShapeNames{"plane", "sphere",    "cylinder",
+                                                      "cone",  "extrusion", "mesh"};
+
 /// Disjoint sets of vertices.
 class UnionFind {
  public:
@@ -112,15 +116,11 @@ std::vector<MirrorPiece> mergeCoplanar(const geometry::MeshView& mesh, std::vect
 
 std::optional<ReflectorShape> parseShape(const std::optional<std::string>& name) {
   if (!name) return std::nullopt;
-  if (*name == "plane") return ReflectorShape::Plane;
-  if (*name == "sphere") return ReflectorShape::Sphere;
-  if (*name == "cylinder") return ReflectorShape::Cylinder;
-  if (*name == "cone") return ReflectorShape::Cone;
-  if (*name == "extrusion") return ReflectorShape::Extrusion;
-  if (*name == "mesh") return ReflectorShape::Mesh;
+  const auto at = std::find(kShapeNames.begin(), kShapeNames.end(), *name);
+  if (at != kShapeNames.end()) return ReflectorShape(at - kShapeNames.begin());
   core::logWarningOnce(
-      "extras.catoptric.shape \"" + *name +
-      "\" is none of plane, sphere, cylinder, cone, extrusion, mesh; the shape is recognised instead");
+      fmt::format("extras.catoptric.shape \"{}\" is none of {}; the shape is recognised instead", *name,
+                  fmt::join(kShapeNames, ", ")));
   return std::nullopt;
 }
 
@@ -243,6 +243,10 @@ void measureReflector(Reflector& reflector, const geometry::MeshView& mesh,
     if (isRound && !fit->isInside && frontsFollowNormals(mesh)) reflector.isConvex = true;
     return;
   }
+}
+
+std::string_view shapeName(ReflectorShape shape) {
+  return kShapeNames[std::size_t(shape)];
 }
 
 }  // namespace catoptric::scene

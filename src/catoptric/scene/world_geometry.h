@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "catoptric/core/math.h"
@@ -16,6 +17,8 @@ namespace catoptric::scene {
 
 /// How a reflector is treated. `Plane` is a planar mirror; everything else goes by its mesh.
 enum class ReflectorShape : std::uint8_t { Plane, Sphere, Cylinder, Cone, Extrusion, Mesh };
+/// The word for it in extras.catoptric.shape, in `info` and in the viewer: "plane", "sphere", ...
+[[nodiscard]] std::string_view shapeName(ReflectorShape shape);
 
 /// A mirror surface: one flat facet, or one smoothly connected curved piece of an instance.
 struct Reflector {

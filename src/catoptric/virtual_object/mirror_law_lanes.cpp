@@ -3,8 +3,9 @@
 // processors that everyone has and for AVX2. Products and sums are not fused, so both give the same bits.
 #include "catoptric/virtual_object/mirror_law_lanes.h"
 
-#include <algorithm>
 #include <cmath>
+
+#include "catoptric/virtual_object/mesh_walk.h"
 
 namespace catoptric::virtual_object {
 namespace {
@@ -114,45 +115,7 @@ void evaluateLanes(Lanes& lanes, const vec3& eye) {
 }
 
 bool walkLane(std::span<const LaneTriangle> triangles, LanePoint& at, float du, float dv) {
-  constexpr int kMaxCrossings = 24;
-  constexpr int kNoEdge = 3;
-  int entered = kNoEdge;
-  for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
-    // Never straight back over the edge it came in by: 0 is v = 0, 1 is u + v = 1, 2 is u = 0.
-    if (entered == 0 && dv < 0) dv = 0;
-    if (entered == 2 && du < 0) du = 0;
-    if (entered == 1 && du + dv > 0) du = 0.5f * (du - dv), dv = -du;
-    const float u = at.u + du, v = at.v + dv;
-    if (u >= 0 && v >= 0 && u + v <= 1) {
-      at.u = u, at.v = v;
-      return true;
-    }
-    const LaneTriangle& t = triangles[at.triangle];
-    int edge = kNoEdge;
-    float first = 2.0f;
-    const auto consider = [&](int k, float inside, float change) {
-      if (inside + change >= 0) return;
-      const float fraction = change < 0 ? std::max(inside / -change, 0.0f) : 0.0f;
-      if (fraction < first) first = fraction, edge = k;
-    };
-    consider(0, at.v, dv);
-    consider(1, 1.0f - at.u - at.v, -(du + dv));
-    consider(2, at.u, du);
-    if (edge == kNoEdge || t.neighbours[edge] == kNoNeighbour) return false;
-    const float cu = at.u + first * du, cv = at.v + first * dv;
-    const float back = 1.0f - (edge == 0 ? cu : edge == 1 ? cv : 1.0f - cv);
-    const vec3 rest = (1.0f - first) * (du * t.edge1 + dv * t.edge2);
-    const std::uint32_t link = t.neighbours[edge];
-    const LaneTriangle& next = triangles[link / 4];
-    entered = int(link % 4);
-    at.triangle = link / 4;
-    at.u = entered == 0 ? back : entered == 1 ? 1.0f - back : 0.0f;
-    at.v = entered == 0 ? 0.0f : entered == 1 ? back : 1.0f - back;
-    const float x = glm::dot(next.edge1, rest), y = glm::dot(next.edge2, rest);
-    du = next.gram11 * x + next.gram12 * y;
-    dv = next.gram12 * x + next.gram22 * y;
-  }
-  return false;
+  return walkOverMesh(triangles, at, du, dv, 24);
 }
 
 }  // namespace catoptric::virtual_object

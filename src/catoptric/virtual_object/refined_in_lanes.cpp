@@ -3,17 +3,15 @@
 // depends on.
 //
 //   1. A chunk of vertices is dealt to eight lanes, a run of neighbours to each; a lane works through its
-//   run.
+//      run.
 //   2. Start: hidden by the mirror? Then no search. Else from the predecessor's reflection point if that is
-//   near, else
-//      from the seed map, as the double search does.
+//      near, else from the seed map, as the double search does.
 //   3. All lanes are evaluated at once (mirror_law_lanes.h). A lane whose residual is small takes one last
-//   step and is
-//      done: Newton's error goes with the square, so the step makes it vanish. Another takes its step and
-//      goes on.
+//      step and is done: Newton's error goes with the square, so the step makes it vanish. Another takes its
+//      step and goes on.
 //   4. Whatever is not easy - nearly touching the mirror, grazing, past the mirror's edge, no quick
-//   convergence - goes to
-//      the double search from its own seed. So what is found, and for which vertices, is what that one finds.
+//      convergence - goes to the double search from its own seed. So what is found, and for which vertices,
+//      is what that one finds.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -24,6 +24,7 @@
 #include <span>
 
 #include "catoptric/core/math.h"
+#include "catoptric/virtual_object/mesh_walk.h"
 #include "catoptric/virtual_object/reflector_mesh.h"
 
 namespace catoptric::virtual_object {
@@ -118,51 +119,9 @@ struct MirrorLaw {
           (j2[0] * f[0] - j1[0] * f[1]) * inverseDeterminant};
 }
 
-/// Moves a surface point by (du, dv) of its triangle, across edges as they come.
+/// Moves a surface point by (du, dv) of its triangle; past the end of the mesh it leaves the last triangle.
 inline void walkOnMesh(std::span<const MirrorTriangle> triangles, SurfacePoint& at, double du, double dv) {
-  constexpr int kMaxCrossings = 96;
-  constexpr int kNoEdge = 3;
-  int entered = kNoEdge;
-  for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
-    const MirrorTriangle& t = triangles[at.triangle];
-    // Never straight back over the edge it came in by.
-    if (entered == 0 && dv < 0) dv = 0;
-    if (entered == 2 && du < 0) du = 0;
-    if (entered == 1 && du + dv > 0) du = dv = 0.5 * (du - dv), dv = -dv;
-    const double u = at.u + du, v = at.v + dv;
-    if (u >= 0 && v >= 0 && u + v <= 1) {
-      at.u = u, at.v = v;
-      return;
-    }
-    // The first edge crossed that has a neighbour: edge 0 is v = 0, edge 1 is u + v = 1, edge 2 is u = 0.
-    int edge = kNoEdge;
-    double first = 2.0;
-    const auto consider = [&](int k, double inside, double change) {
-      if (inside + change >= 0 || t.neighbours[k] == kNoNeighbour) return;
-      const double fraction = change < 0 ? std::max(inside / -change, 0.0) : 0.0;
-      if (fraction < first) first = fraction, edge = k;
-    };
-    consider(0, at.v, dv);
-    consider(1, 1.0 - at.u - at.v, -(du + dv));
-    consider(2, at.u, du);
-    if (edge == kNoEdge) {  // past the end of the mesh
-      at.u = u, at.v = v;
-      return;
-    }
-    const double cu = at.u + first * du, cv = at.v + first * dv;
-    const double along = edge == 0 ? cu : edge == 1 ? cv : 1.0 - cv;
-    const dvec3 rest = (1.0 - first) * (du * t.edge1 + dv * t.edge2);
-    const std::uint32_t link = t.neighbours[edge];
-    const MirrorTriangle& next = triangles[link / 4];
-    entered = int(link % 4);
-    const double back = 1.0 - along;
-    at.triangle = link / 4;
-    at.u = entered == 0 ? back : entered == 1 ? 1.0 - back : 0.0;
-    at.v = entered == 0 ? 0.0 : entered == 1 ? back : 1.0 - back;
-    const double x = glm::dot(next.edge1, rest), y = glm::dot(next.edge2, rest);
-    du = next.gram11 * x + next.gram12 * y;
-    dv = next.gram12 * x + next.gram22 * y;
-  }
+  static_cast<void>(walkOverMesh(triangles, at, du, dv, 96));
 }
 
 struct SearchResult {

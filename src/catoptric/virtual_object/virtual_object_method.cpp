@@ -16,8 +16,7 @@ VirtualObjectMethod::Prepared::Prepared(const scene::WorldGeometry& world, std::
       mesh(world, reflector, ReflectorMeshOptions{.flipped = flipped}),
       objects(raster::tessellateForReflector(world, reflector,
                                              raster::TessellationOptions{.maxErrorPx = maxError})),
-      streams(objects),
-      blendedStreams(objects),
+      pass(objects),
       virtualPositions(objects.positions.size()),
       reflectionPoints(objects.positions.size()),
       kinds(objects.positions.size()) {}
@@ -91,20 +90,8 @@ void VirtualObjectMethod::render(raster::FrameContext& frame, const raster::Chai
   if (p.objects.indices.empty()) return;
   computeVirtualVertices(frame, chain, drawEye, p);
   if (!p.solver->canReflect()) return;
-  const bool isMirrored = chain.drawFromWorld != dmat4(1.0);
-  raster::selectVirtualTriangles(p.objects, drawEye, p.virtualPositions, p.kinds, p.reflectionPoints,
-                                 p.triangles,
-                                 isMirrored ? std::span<const vec3>(p.scenePoints) : std::span<const vec3>());
-  frame.counters.virtualTriangles += p.triangles.indices.size() / 3;
 
   // 3
-  p.streams.setDrawPositions(p.virtualPositions);
-  p.streams.setIndices(p.triangles.indices, true);
-  p.opaque.clear();
-  p.blended.clear();
-  for (const raster::TessellatedPart& part : p.triangles.parts)
-    (frame.scene.isBlended(part.part) ? p.blended : p.opaque)
-        .push_back({part.part, part.firstIndex, part.indexCount});
   raster::SurfaceView view;
   view.clipFromDraw =
       raster::makeClipFromWorld(frame.camera, frame.nearPlane, frame.jitterPx) * chain.screenFromDraw;
@@ -112,22 +99,12 @@ void VirtualObjectMethod::render(raster::FrameContext& frame, const raster::Chai
   view.windingFlipped = chain.level % 2 == 1;
   view.chain = &chain;
   view.parent = &parent;
-  const scene::WorldGeometry& world = frame.scene.geometry();
-  if (chain.last !=
-      *chain.curved) {  // a flat mirror seen in the curved one: what is before it, as the curved one is
-    const scene::Reflector& mirror = world.reflectors[chain.last];
-    const double side =
-        mirror.plane.signedDistance(world.reflectors[*chain.curved].centre) > 0.0 ? 1.0 : -1.0;
-    view.clipPlane = vec4(vec3(side * mirror.plane.normal), float(side * mirror.plane.offset));
-    view.excludedReflector = chain.last;
-  }
-  frame.surfaces.draw(frame.scene, p.streams, p.opaque, view, target);
-  if (p.blended.empty()) return;
-  raster::sortBlendedTriangles(p.blended, p.triangles.indices, p.virtualPositions, drawEye, p.sortedIndices,
-                               p.sorted);
-  p.blendedStreams.setDrawPositions(p.virtualPositions);
-  p.blendedStreams.setIndices(p.sortedIndices, true);
-  frame.surfaces.drawBlended(frame.scene, p.blendedStreams, p.sorted, view, target);
+  const auto& reflectors = frame.scene.geometry().reflectors;
+  if (chain.last != *chain.curved)
+    raster::clipAtLastMirror(reflectors[chain.last], chain.last, reflectors[*chain.curved].centre, view);
+  const bool isMirrored = chain.drawFromWorld != dmat4(1.0);
+  p.pass.draw(frame, view, p.virtualPositions, p.kinds, p.reflectionPoints,
+              isMirrored ? std::span<const vec3>(p.scenePoints) : std::span<const vec3>(), target);
 }
 
 }  // namespace catoptric::virtual_object

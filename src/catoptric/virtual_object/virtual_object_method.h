@@ -10,7 +10,7 @@
 
 #include "catoptric/raster/reflection_method.h"
 #include "catoptric/raster/tessellation.h"
-#include "catoptric/raster/virtual_triangles.h"
+#include "catoptric/raster/virtual_object_pass.h"
 #include "catoptric/virtual_object/reflector_mesh.h"
 #include "catoptric/virtual_object/virtual_object_solver.h"
 
@@ -37,15 +37,12 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     bool isFromBehind;  ///< the eye is behind a double-sided mirror
     ReflectorMesh mesh;
     raster::TessellatedObjects objects;
-    raster::VertexStreams streams, blendedStreams;
+    raster::VirtualObjectPass pass;
     std::unique_ptr<VirtualObjectSolver> solver;
     Solver finderOf = Solver::Refined;  ///< whose finder the solver was given
     std::vector<vec3> scenePoints;      ///< vertices mirrored by the planar links behind the curved one
     std::vector<vec3> virtualPositions, reflectionPoints;
     std::vector<VertexKind> kinds;
-    raster::VirtualTriangles triangles;
-    std::vector<raster::DrawRange> opaque, blended, sorted;
-    std::vector<std::uint32_t> sortedIndices;
   };
   Prepared& prepareReflector(const raster::FrameContext& frame, const raster::Chain& chain,
                              const dvec3& drawEye);

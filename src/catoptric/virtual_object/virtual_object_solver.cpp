@@ -4,24 +4,22 @@
 //
 // Explosion:
 //   1. Hidden? Look Q up in the hidden map; if the triangle V there hides it, mirror Q in the plane that V
-//   has where
-//      the ray E -> Q meets it. Such a vertex comes to lie outside the mirror's image, or in front of its
-//      surface.
+//      has where the ray E -> Q meets it. Such a vertex comes to lie outside the mirror's image, or in front
+//      of its surface.
 //   2. MapCoords of the direction centre -> Q, the same for both maps.
 //   3. In each map: triangle, barycentrics in its mapped 2-D triangle, plane there, mirror Q in it. In an
-//   extension
-//      polygon: the point of the triangle's outer edge on the same radius.
+//      extension polygon: the point of the triangle's outer edge on the same radius.
 //   4. Blend with weights 1/d_near, 1/d_far of *relative* distances, that is, linearly in 1/|Q - C|.
 // Refined:
 //   1. The two reflection points of steps 2 and 3; walk from the heavier one over the mesh towards their
-//   blend.
+//      blend.
 //   2. Newton on the mirror law across triangle edges (reflection_point.h).
 //   3. Q' on the ray E -> J at |EJ| + |JQ|. J in the skirt: doubly virtual.
 //   4. No root: hidden, as in Explosion step 1; it meets the reflected ones smoothly both at the line where
-//   an object
-//      touches the mirror and at the rim (README).
+//      an object touches the mirror and at the rim (README).
+//   On a convex mirror many vertices go through these steps side by side (refined_in_lanes.cpp).
 //
-// Failures: see README. Cost per vertex and core: 0.13 to 0.18 us Explosion, 0.31 to 0.45 us Refined.
+// Failures and cost: see README.
 #include "catoptric/virtual_object/virtual_object_solver.h"
 
 #include <algorithm>
@@ -54,7 +52,8 @@ std::uint32_t heavierTriangle(const SeedPixel& seed, double nearWeight) {
 
 VirtualObjectSolver::VirtualObjectSolver(const ReflectorMesh& mesh, const dvec3& eye, double farRadius,
                                          const SolverOptions& options)
-    : mesh_(&mesh), farRadius_(farRadius), options_(options), laneTriangles_(makeLaneTriangles(mesh)) {
+    : mesh_(&mesh), farRadius_(farRadius), options_(options) {
+  if (mesh.isConvex()) laneTriangles_ = makeLaneTriangles(mesh);
   for (ExplosionMap* map : {&nearMap_, &farMap_})
     map->ids = core::Image<std::uint32_t>(options.mapResolution, options.mapResolution, core::kNoId);
   const int hidden = options.hiddenMapResolution;

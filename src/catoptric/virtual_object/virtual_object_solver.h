@@ -5,10 +5,10 @@
 // Everything here depends on the eye: three maps of triangle ids (near, far, hidden) and two solvers that use
 // them.
 //   Explosion: the method as published. Mirrors Q in the planes that the two maps name and blends the
-//   results. Refined:   takes the blend of the two reflection points as the start of a Newton search on the
-//   mirror law, which
-//              walks across triangle edges; then Q' lies on the ray eye -> J at distance |EJ| + |JQ|, so that
-//              depth order is the order of path length.
+//              results.
+//   Refined:   takes the blend of the two reflection points as the start of a Newton search on the mirror
+//              law, which walks across triangle edges; then Q' lies on the ray eye -> J at distance
+//              |EJ| + |JQ|, so that depth order is the order of path length.
 // The other solvers (analytic, layered, subdivision) are PointFinders in files of their own; what they find
 // is placed here, like Refined's. World space, double inside, float at the borders.
 #pragma once
