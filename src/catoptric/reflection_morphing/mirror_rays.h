@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "catoptric/core/math.h"
-#include "catoptric/geometry/triangle_bvh.h"
+#include "catoptric/geometry/nearest_hit.h"
 #include "catoptric/scene/world_geometry.h"
 
 namespace catoptric::reflection_morphing {
@@ -48,9 +48,8 @@ class MirrorRays {
   bool reflect(ReflectedRay& ray, std::uint32_t& triangle) const;
 
   const scene::WorldGeometry& world_;
-  std::vector<std::uint32_t> worldTriangles_;  ///< of the hierarchy's triangles
-  double least_ = 0;                           ///< shortest segment between two mirrors
-  geometry::TriangleBvh bvh_;
+  double least_ = 0;  ///< shortest segment between two mirrors
+  geometry::TriangleHierarchy hierarchy_;
 };
 
 }  // namespace catoptric::reflection_morphing

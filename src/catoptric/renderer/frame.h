@@ -40,11 +40,11 @@ struct FrameOptions {
   int samples = 1;           ///< per pixel, for radiance; what is seen is always sampled at the pixel centre
   double maxErrorPx = 0.5;   ///< aim of the tessellation of reflected objects
   bool boxCorrected = true;  ///< Environment: parallax-corrected by the box of the room; false: plain
-  int environmentMapSize = 512;              ///< Environment: edge of a cube face, texels
-  std::string bakedFile;                     ///< Morphing: of `catoptric bake`; empty: baked where the eye is
-  bool allDynamic = false;                   ///< Morphing: every vertex counts as moving
-  depth_reflection_map::ZexelOptions zexel;  ///< Zexel only
-  bool withSeen = true;                      ///< read back what is seen at each pixel
+  int environmentMapSize = 512;  ///< Environment: edge of a cube face, texels
+  std::string bakedFile{};       ///< Morphing: of `catoptric bake`; empty: baked where the eye is
+  bool allDynamic = false;       ///< Morphing: every vertex counts as moving
+  depth_reflection_map::ZexelOptions zexel{};  ///< Zexel only
+  bool withSeen = true;                        ///< read back what is seen at each pixel
   /// RayTrace: once it is true, which any thread may make it, the frame ends early and is of no use.
   const std::atomic<bool>* cancel = nullptr;
 };

@@ -10,7 +10,7 @@
 
 #include "catoptric/virtual_object/exact/ray_shaft.h"
 #include "catoptric/virtual_object/exact/tile_cover.h"
-#include "catoptric/virtual_object/exact/triangle_hierarchy.h"
+#include "catoptric/geometry/triangle_hierarchy.h"
 
 namespace catoptric::virtual_object {
 namespace {

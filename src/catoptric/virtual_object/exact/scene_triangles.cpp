@@ -21,9 +21,9 @@ std::uint32_t flagsOf(const raster::SceneBuffers& scene, std::uint32_t part) {
          (scene.isBlended(part) ? kCoverBlended : 0u);
 }
 
-std::vector<HierarchyTriangle> listTriangles(const raster::SceneBuffers& scene) {
+std::vector<geometry::HierarchyTriangle> listTriangles(const raster::SceneBuffers& scene) {
   const scene::WorldGeometry& world = scene.geometry();
-  std::vector<HierarchyTriangle> triangles;
+  std::vector<geometry::HierarchyTriangle> triangles;
   triangles.reserve(world.triangleCount());
   for (std::uint32_t p = 0; p < world.parts.size(); ++p) {
     const scene::Part& part = world.parts[p];

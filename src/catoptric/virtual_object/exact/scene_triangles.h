@@ -5,9 +5,9 @@
 
 #include <memory>
 
+#include "catoptric/geometry/triangle_hierarchy.h"
 #include "catoptric/gl/texture.h"
 #include "catoptric/raster/scene_buffers.h"
-#include "catoptric/virtual_object/exact/triangle_hierarchy.h"
 
 namespace catoptric::virtual_object {
 
@@ -16,12 +16,12 @@ class SceneTriangles {
   /// Throws core::Error("gl.texture_size") for a scene that does not fit into a texture.
   explicit SceneTriangles(const raster::SceneBuffers& scene);
 
-  [[nodiscard]] const TriangleHierarchy& hierarchy() const { return hierarchy_; }
+  [[nodiscard]] const geometry::TriangleHierarchy& hierarchy() const { return hierarchy_; }
   [[nodiscard]] const gl::Texture& triangles() const { return *triangles_; }
   [[nodiscard]] const gl::Texture& vertices() const { return *vertices_; }
 
  private:
-  TriangleHierarchy hierarchy_;
+  geometry::TriangleHierarchy hierarchy_;
   std::unique_ptr<gl::Texture> triangles_, vertices_;
 };
 

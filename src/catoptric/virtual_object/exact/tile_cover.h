@@ -25,10 +25,13 @@
 
 #include "catoptric/core/math.h"
 #include "catoptric/core/seen.h"
+#include "catoptric/geometry/triangle_hierarchy.h"
 #include "catoptric/virtual_object/exact/ray_shaft.h"
-#include "catoptric/virtual_object/exact/triangle_hierarchy.h"
 
 namespace catoptric::virtual_object {
+
+using geometry::HierarchyTriangle;
+using geometry::TriangleHierarchy;
 
 /// HierarchyTriangle::flags.
 enum CoverFlag : std::uint32_t { kCoverSingleSided = 1, kCoverMasked = 2, kCoverBlended = 4 };

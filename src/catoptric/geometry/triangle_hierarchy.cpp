@@ -2,14 +2,14 @@
 // Steps: 1 bounds of the triangles and of their centres, 2 the cheapest of 16 planes by the surface area
 // heuristic along the longest axis of the centres (Wald 2007), the middle where that finds none, 3 the same
 // for both halves.
-#include "catoptric/virtual_object/exact/triangle_hierarchy.h"
+#include "catoptric/geometry/triangle_hierarchy.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-namespace catoptric::virtual_object {
+namespace catoptric::geometry {
 namespace {
 
 constexpr std::uint32_t kLeafTriangles = 4;
@@ -129,4 +129,4 @@ void TriangleHierarchy::build(std::uint32_t begin, std::uint32_t end, int depth)
   build(half, end, depth + 1);
 }
 
-}  // namespace catoptric::virtual_object
+}  // namespace catoptric::geometry

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bounding-volume hierarchy over the triangles of the scene, for culling them against bundles of reflected
-// rays. Built once per geometry; contiguous arrays. Independent of the ray tracer that judges (reference/).
+// A bounding-volume hierarchy over triangles, for single rays (nearest_hit.h) and for bundles of them (the
+// exact solver). Built once per geometry; contiguous arrays. Independent of the ray tracer that judges
+// (reference/), which methods must not see (docs/decisions.md).
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 
 #include "catoptric/core/math.h"
 
-namespace catoptric::virtual_object {
+namespace catoptric::geometry {
 
 /// A triangle in the order of the hierarchy's leaves.
 struct HierarchyTriangle {
@@ -40,4 +41,4 @@ class TriangleHierarchy {
   std::vector<Node> nodes_;
 };
 
-}  // namespace catoptric::virtual_object
+}  // namespace catoptric::geometry
