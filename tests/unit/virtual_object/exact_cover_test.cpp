@@ -8,9 +8,9 @@
 #include <random>
 #include <set>
 
+#include "catoptric/geometry/triangle_hierarchy.h"
 #include "catoptric/virtual_object/exact/ray_shaft.h"
 #include "catoptric/virtual_object/exact/tile_cover.h"
-#include "catoptric/geometry/triangle_hierarchy.h"
 
 namespace catoptric::virtual_object {
 namespace {
