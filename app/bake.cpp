@@ -112,6 +112,7 @@ void sayResult(const Options& options, const std::vector<BakedLocation>& locatio
 int run(const Options& options) {
   applyOutput(options.output);
   if (options.file.empty()) throw UsageError("where to write to is missing", "add -o FILE");
+  if (options.file == "-") throw UsageError("a baked file cannot go to standard output", "name a file");
   const auto loaded = loadScene(options.source, options.scene);
   const BakePlan plan = makePlan(options, loaded->geometry);
   std::vector<BakedLocation> locations;

@@ -128,6 +128,7 @@ int run(Options options) {
   applyOutput(options.output);
   const PictureFormat format = checkOutputs(options);
   checkSequence(options);
+  checkMethod(options.frame.frame);
   renderer::FrameOptions& frameOptions = options.frame.frame;
   frameOptions.boxCorrected = !options.plainMap;
   frameOptions.withSeen = !options.aov.empty();

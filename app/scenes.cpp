@@ -35,16 +35,21 @@ Json describeScenes(const std::vector<std::string>& names, const std::vector<std
   return list;
 }
 
-std::vector<std::string> writeScenes(const std::vector<std::string>& names, const std::string& folder) {
+void makeFolder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw core::Error("file.write", "cannot make the folder '" + folder + "': " + error.message());
+}
+
+std::vector<std::string> writeScenes(const std::vector<std::string>& names, const std::string& folder) {
   std::vector<std::string> files;
   core::Progress progress("writing scenes", names.size());
   for (const std::string& name : names) {
     progress.describe(name);
     const std::filesystem::path file = std::filesystem::path(folder) / (name + ".glb");
-    core::writeFileAtomically(file, std::span<const std::byte>(scene::makeBuiltInScene(name)));
+    const std::vector<std::byte> glb = scene::makeBuiltInScene(name);
+    makeFolder(folder);  // not before: a name that is none leaves no folder behind
+    core::writeFileAtomically(file, std::span<const std::byte>(glb));
     files.push_back(file.string());
     progress.advance();
   }

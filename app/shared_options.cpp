@@ -152,6 +152,15 @@ void declareMethod(Arguments& arguments, renderer::FrameOptions& options, bool& 
   arguments.flag("--plain-environment-map", "No parallax correction by the box of the room", plainMap);
 }
 
+void checkMethod(const renderer::FrameOptions& options) {
+  if (options.solver != renderer::Solver::Auto && !renderer::hasSolvers(options.method))
+    throw UsageError(fmt::format("--solver: the method '{}' has none", renderer::methodName(options.method)),
+                     "leave it out, or add --method virtual");
+  if (!options.bakedFile.empty() && options.method != renderer::Method::Morphing)
+    throw UsageError(fmt::format("--baked: the method '{}' has no use for it", renderer::methodName(options.method)),
+                     "add --method morphing");
+}
+
 void applyOutput(const OutputOptions& options) {
   if (options.quiet && options.verbose) throw UsageError("--quiet and --verbose exclude each other");
   setVerbosity(options.quiet ? Verbosity::Quiet : options.verbose ? Verbosity::Verbose : Verbosity::Normal);

@@ -49,6 +49,8 @@ void declarePicture(Arguments& arguments, PictureOptions& options);
 void declareBaked(Arguments& arguments, renderer::FrameOptions& options);
 /// --method, --solver, --baked, --plain-environment-map (FrameOptions::boxCorrected is its opposite).
 void declareMethod(Arguments& arguments, renderer::FrameOptions& options, bool& plainMap);
+/// Throws UsageError for a --solver or --baked of another method, which would change nothing.
+void checkMethod(const renderer::FrameOptions& options);
 
 /// Verbosity and threads; call it first in a command.
 void applyOutput(const OutputOptions& options);

@@ -103,6 +103,7 @@ int run(Options options, const std::vector<std::string>& line) {
     options.source = viewer.files.front();
   }
   checkSource(options.source);
+  checkMethod(options.frame.frame);
   viewer.scene.source = options.source;
   viewer.scene.environment = options.frame.environment;
   viewer.scene.mirrors = options.scene.reflectors.only;

@@ -38,7 +38,10 @@ std::string makeCommandText(const LoadRequest& scene, const scene::Camera& camer
   for (const std::string& name : scene.mirrors) add("--reflector", name);
   if (scene.noReflectors) add("--no-reflectors", "");
   add("--method", std::string(renderer::methodName(options.method)));
-  if (options.solver != standard.solver) add("--solver", std::string(renderer::solverName(options.solver)));
+  if (renderer::hasSolvers(options.method) && options.solver != standard.solver)
+    add("--solver", std::string(renderer::solverName(options.solver)));
+  if (options.method == renderer::Method::Morphing && !options.bakedFile.empty())
+    add("--baked", options.bakedFile);
   if (!options.boxCorrected) add("--plain-environment-map", "");
   add("--size", fmt::format("{}x{}", options.widthPx, options.heightPx));
   add("--bounces", fmt::format("{}", options.bounces));

@@ -57,6 +57,14 @@ class Bake(support.CommandTest):
                       ("--counts", "2x2x2x2")):
             self.refuse(2, words[0], "bake", "columns", "-o", "a.bake", *words)
 
+    def test_only_a_file_is_written_to(self):
+        os.mkfifo(self.path("pipe"))
+        os.mkdir(self.path("folder"))
+        for name in ("pipe", "folder"):
+            self.refuse(1, (name, "no regular file"), "bake", "columns", "-o", name, *BOX)
+        self.refuse(2, "standard output", "bake", "columns", "-o", "-", *BOX)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["folder", "pipe", "scene.gltf"])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -60,6 +60,10 @@ class Scenes(support.CommandTest):
         self.succeed("scenes", "checker-box", "-o", "again", "--quiet")
         self.assertEqual(self.read("one", "deeper", "checker-box.glb"), self.read("again", "checker-box.glb"))
 
+    def test_an_unknown_name_leaves_nothing_behind(self):
+        self.refuse(1, ('"no-such"', "four-spheres"), "scenes", "no-such", "-o", "folder")
+        self.assertFalse(os.path.exists(self.path("folder")))
+
     def test_write_all(self):
         """Making them takes its time, so what they hold is looked at here, too."""
         document = self.json_of("scenes", "-o", "all")

@@ -53,6 +53,11 @@ class WrongUsage(support.CommandTest):
         self.refuse(2, ("'refind'", "did you mean 'refined'?"), *render, "--solver", "refind")
         self.refuse(2, ("'environmnt'", "did you mean 'environment'?"), "bench", "scene.gltf", "--methods", "environmnt")
 
+    def test_options_of_another_method(self):
+        for command in (("render", "scene.gltf", "-o", "x.png"), ("view", "scene.gltf")):
+            self.refuse(2, ("--solver", "zexel"), *command, "--method", "zexel", "--solver", "exact")
+            self.refuse(2, ("--baked", "--method morphing"), *command, "--baked", "x.bake")
+
     def test_values_that_are_no_good(self):
         for option, value in (("--size", "abc"), ("--size", "0x10"), ("--size", "-3x4"), ("--size", "10"),
                               ("--size", "99999x2"), ("--size", "16384x16384"), ("--size", "10x10x10"),

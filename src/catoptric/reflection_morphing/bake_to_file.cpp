@@ -26,6 +26,9 @@ class PartFile {
  public:
   explicit PartFile(std::filesystem::path target)
       : target_(std::move(target)), path_(target_.string() + ".part") {
+    std::error_code ignored;
+    if (std::filesystem::exists(target_, ignored) && !std::filesystem::is_regular_file(target_, ignored))
+      throw core::Error("file.write", "cannot write '" + target_.string() + "': it is no regular file");
     file_ = std::fopen(path_.c_str(), "ab+");
     if (file_ == nullptr) fail("cannot write");
   }

@@ -31,6 +31,8 @@ enum class Solver { Auto, Explosion, Layered, Refined, Exact, Analytic, Subdivis
 /// Names as on the command line.
 [[nodiscard]] std::string_view methodName(Method method);
 [[nodiscard]] std::string_view solverName(Solver solver);
+/// Whether FrameOptions::solver has a say in this method.
+[[nodiscard]] bool hasSolvers(Method method);
 
 struct FrameOptions {
   Method method = Method::Auto;

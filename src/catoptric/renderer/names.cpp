@@ -24,6 +24,10 @@ std::string_view methodName(Method method) {
   return "?";
 }
 
+bool hasSolvers(Method method) {
+  return method == Method::Auto || method == Method::Virtual;
+}
+
 std::string_view solverName(Solver solver) {
   switch (solver) {
     case Solver::Auto:
