@@ -157,8 +157,9 @@ void checkMethod(const renderer::FrameOptions& options) {
     throw UsageError(fmt::format("--solver: the method '{}' has none", renderer::methodName(options.method)),
                      "leave it out, or add --method virtual");
   if (!options.bakedFile.empty() && options.method != renderer::Method::Morphing)
-    throw UsageError(fmt::format("--baked: the method '{}' has no use for it", renderer::methodName(options.method)),
-                     "add --method morphing");
+    throw UsageError(
+        fmt::format("--baked: the method '{}' has no use for it", renderer::methodName(options.method)),
+        "add --method morphing");
 }
 
 void applyOutput(const OutputOptions& options) {
