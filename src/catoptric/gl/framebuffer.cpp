@@ -78,7 +78,7 @@ void Framebuffer::copyToCubeFace(int attachment, const Texture& cube, int face) 
 void setDrawState(const DrawState& state) {
   if (state.depthTest) {
     glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LESS);
+    glDepthFunc(state.depthEqual ? GL_LEQUAL : GL_LESS);
   } else {
     glDisable(GL_DEPTH_TEST);
   }

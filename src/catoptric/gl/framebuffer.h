@@ -40,7 +40,8 @@ class Framebuffer {
 enum class Cull : std::uint8_t { None, Back, Front };
 
 struct DrawState {
-  bool depthTest = true;
+  bool depthTest = true;    ///< drawn where nothing nearer is
+  bool depthEqual = false;  ///< nor anything as near
   bool depthWrite = true;
   Cull cull = Cull::None;
   bool blendPremultiplied = false;  ///< source + destination * (1 - source alpha)
@@ -55,7 +56,8 @@ void setDrawState(const DrawState& state);
 void setScissor(const Scissor& scissor);
 /// The bound vertex array's index buffer, 32-bit indices, triangles.
 void drawTriangles(std::uint32_t firstIndex, std::uint32_t indexCount);
-/// One triangle that covers the target; shaders/lib/screen.vert makes its corners from gl_VertexID.
+/// One triangle that covers the target, farther than all else; shaders/raster/screen.vert makes its corners
+/// from gl_VertexID.
 void drawScreen();
 
 }  // namespace catoptric::gl

@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps: 1 environment in the mirror direction, 2 drop parts wholly behind the mirror, 3 draw the rest
-// mirrored.
+// Steps: 1 drop parts wholly behind the mirror, 2 draw the rest mirrored, 3 the environment behind it.
 #include "catoptric/planar_mirror/planar_mirror_method.h"
 
 namespace catoptric::planar_mirror {
 namespace {
 
-bool isWhollyBehind(const scene::WorldGeometry& world, const scene::Part& part, const vec4& plane) {
-  for (std::uint32_t v = part.firstVertex; v < part.firstVertex + part.vertexCount; ++v)
-    if (glm::dot(vec3(plane), world.positions[v]) + plane.w > 0.0f) return false;
-  return true;
+/// Does this box lie behind the plane, or in it?
+bool isWhollyBehind(const core::Box& box, const vec4& plane) {
+  const dvec3 normal = dvec3(vec3(plane));
+  const dvec3 foremost = glm::mix(box.lower, box.upper, glm::greaterThan(normal, dvec3(0)));
+  return glm::dot(normal, foremost) + double(plane.w) <= 0.0;
 }
 
 }  // namespace
 
 void PlanarMirrorMethod::render(raster::FrameContext& frame, const raster::Chain& chain,
                                 const raster::Level& parent, raster::Level& target) {
-  // 1
-  background_.draw(frame.scene, chain, parent, target);
-
-  // 2. The side of the mirror on which the last-but-one image of the eye lies is the bright one.
+  // 1. The side of the mirror on which the last-but-one image of the eye lies is the bright one.
   const scene::WorldGeometry& world = frame.scene.geometry();
   const scene::Reflector& mirror = world.reflectors[chain.last];
   const dmat4 drawFromScreen = glm::inverse(chain.screenFromDraw);
@@ -37,10 +34,13 @@ void PlanarMirrorMethod::render(raster::FrameContext& frame, const raster::Chain
   view.excludedReflector = chain.last;
   ranges_.clear();
   for (const raster::DrawRange& range : frame.scene.opaqueRanges())
-    if (!isWhollyBehind(world, world.parts[range.part], view.clipPlane)) ranges_.push_back(range);
+    if (!isWhollyBehind(frame.scene.partBox(range.part), view.clipPlane)) ranges_.push_back(range);
 
-  // 3
+  // 2
+  raster::sortNearFirst(frame.scene, drawEye, ranges_);
   frame.surfaces.draw(frame.scene, frame.scene.world(), ranges_, view, target);
+  // 3
+  background_.draw(frame.scene, chain, parent, target);
   for (const raster::DrawRange& range : ranges_) frame.counters.virtualTriangles += range.indexCount / 3;
   if (frame.scene.blendedRanges().empty()) return;
   if (!blendedStreams_) blendedStreams_ = std::make_unique<raster::VertexStreams>(world);

@@ -30,11 +30,12 @@ Level::Level(int width, int height)
       seenIds(makeTarget(gl::Format::Rg32Ui, width, height)),
       surfaces(makeFramebuffer({&radiance, &position, &weight, &ids}, &depth)),
       overlays(makeFramebuffer({&overlay}, &depth)),
-      composed(makeFramebuffer({&color, &seenPosition, &seenIds}, nullptr)) {}
+      composed(makeFramebuffer({&color, &seenPosition, &seenIds}, nullptr)),
+      composedColor(makeFramebuffer({&color}, nullptr)) {}
 
 void Level::clear(const gl::Scissor& drawn) {
   drawnBounds = drawn;
-  hasOverlay = false;
+  hasOverlay = isComplete = false;
   surfaces.bind();
   surfaces.clearColor(3,
                       uvec4(0u));  // where ids say that there is nothing, the other three are never looked at
@@ -53,19 +54,34 @@ void Level::bindAsParent(gl::Program& program) const {
   }
 }
 
-ComposePass::ComposePass() : program_("raster/screen.vert", "raster/compose.frag") {}
+ComposePass::ComposePass() = default;
 
-void ComposePass::draw(const SceneBuffers& scene, const Level& level, const Level* next) {
-  level.composed.bind();
+gl::Program& ComposePass::findProgram(unsigned features) {
+  std::unique_ptr<gl::Program>& program = programs_[features];
+  if (program) return *program;
+  std::vector<std::string> defines;
+  if ((features & kNext) != 0) defines.emplace_back("NEXT");
+  if ((features & kEnvironment) != 0) defines.emplace_back("ENVIRONMENT");
+  if ((features & kOverlay) != 0) defines.emplace_back("OVERLAY");
+  if ((features & kSeen) != 0) defines.emplace_back("SEEN");
+  program = std::make_unique<gl::Program>("raster/screen.vert", "raster/compose.frag", defines);
+  return *program;
+}
+
+void ComposePass::draw(const SceneBuffers& scene, const Level& level, const Level* next, bool withSeen) {
+  (withSeen ? level.composed : level.composedColor).bind();
   gl::setScissor(level.drawnBounds);
   gl::setDrawState({.depthTest = false, .depthWrite = false});
-  program_.use();
-  scene.bindEnvironment(program_);
+  const bool showsEnvironment = next == nullptr || !next->isComplete;
+  gl::Program& program = findProgram((next ? kNext : 0u) | (showsEnvironment ? kEnvironment : 0u) |
+                                     (level.hasOverlay ? kOverlay : 0u) | (withSeen ? kSeen : 0u));
+  program.use();
+  scene.bindEnvironment(program);
   const Level& other = next ? *next : level;
   int unit = kUnitFirstFree;
   const auto bind = [&](const char* name, const gl::Texture& texture) {
     texture.bind(unit);
-    program_.set(name, unit++);
+    program.set(name, unit++);
   };
   bind("u_radiance", level.radiance);
   bind("u_position", level.position);
@@ -77,8 +93,6 @@ void ComposePass::draw(const SceneBuffers& scene, const Level& level, const Leve
   bind("u_nextColor", next ? next->color : level.radiance);
   bind("u_nextSeenPosition", next ? next->seenPosition : level.position);
   bind("u_nextSeenIds", next ? next->seenIds : level.ids);
-  program_.set("u_hasOverlay", level.hasOverlay ? 1 : 0);
-  program_.set("u_hasNext", next ? 1 : 0);
   nothing_.bind();
   gl::drawScreen();
 }

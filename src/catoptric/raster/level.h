@@ -3,6 +3,7 @@
 // mirrors, at the pixels of level k-1's mirrors. Layout: shaders/raster/level_pixels.glsl.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -24,22 +25,27 @@ struct Level {
 
   int widthPx, heightPx;
   gl::Texture radiance, position, weight, ids, depth;
-  gl::Texture overlay;                       ///< blended surfaces, premultiplied
-  gl::Texture color, seenPosition, seenIds;  ///< composed
-  gl::Framebuffer surfaces, overlays, composed;
-  gl::Scissor drawnBounds;  ///< pixels that may show something
+  gl::Texture overlay;                                          ///< blended surfaces, premultiplied
+  gl::Texture color, seenPosition, seenIds;                     ///< composed
+  gl::Framebuffer surfaces, overlays, composed, composedColor;  ///< composedColor: without what is seen
+  gl::Scissor drawnBounds;                                      ///< pixels that may show something
   bool hasOverlay = false;
+  bool isComplete = false;  ///< something was drawn for every mirror pixel of the level before
 };
 
 /// Blends a level with what its mirrors show (shaders/raster/compose.frag).
 class ComposePass {
  public:
   ComposePass();
-  /// `next` may be null: mirrors show the environment.
-  void draw(const SceneBuffers& scene, const Level& level, const Level* next);
+  /// `next` may be null: mirrors show the environment. `withSeen`: carries along what is seen; the next level
+  /// must have been composed so, too.
+  void draw(const SceneBuffers& scene, const Level& level, const Level* next, bool withSeen);
 
  private:
-  gl::Program program_;
+  enum Feature : unsigned { kNext = 1, kEnvironment = 2, kOverlay = 4, kSeen = 8 };
+  [[nodiscard]] gl::Program& findProgram(unsigned features);
+
+  std::array<std::unique_ptr<gl::Program>, 16> programs_;  ///< by features, made when first used
   gl::VertexArray nothing_;
 };
 

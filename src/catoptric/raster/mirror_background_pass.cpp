@@ -10,7 +10,7 @@ void MirrorBackgroundPass::draw(const SceneBuffers& scene, const Chain& chain, c
                                 const Level& target) {
   target.surfaces.bind();
   gl::setScissor(chain.bounds);
-  gl::setDrawState({.depthTest = false, .depthWrite = false});
+  gl::setDrawState({.depthTest = true, .depthEqual = true, .depthWrite = false});
   program_.use();
   scene.bindEnvironment(program_);
   parent.bindAsParent(program_);

@@ -53,7 +53,7 @@ class ReflectionMethod {
   virtual void render(FrameContext& frame, const Chain& chain, const Level& parent, Level& target) = 0;
 };
 
-/// The environment in the mirror direction: the background of planar and virtual-object reflections.
+/// The environment in the mirror direction, behind what has been drawn into the target with its depth.
 class MirrorBackgroundPass {
  public:
   MirrorBackgroundPass();

@@ -47,6 +47,13 @@ gl::TextureWrap wrapOf(scene::Wrap wrap) {
                                                : gl::TextureWrap::ClampToEdge;
 }
 
+core::Box computePartBox(const scene::WorldGeometry& world, std::uint32_t index) {
+  const scene::Part& part = world.parts[index];
+  core::Box box;
+  for (std::uint32_t v = 0; v < part.vertexCount; ++v) box.add(dvec3(world.positions[part.firstVertex + v]));
+  return box;
+}
+
 }  // namespace
 
 SceneBuffers::SceneBuffers(const scene::Scene& scene, const scene::WorldGeometry& geometry,
@@ -62,11 +69,15 @@ SceneBuffers::SceneBuffers(const scene::Scene& scene, const scene::WorldGeometry
     if (part.indexCount == 0) continue;
     (isBlended(i) ? blended_ : opaque_).push_back({i, part.firstIndex, part.indexCount});
   }
+  boxes_.resize(geometry.parts.size());
+  for (std::uint32_t i = 0; i < geometry.parts.size(); ++i) boxes_[i] = computePartBox(geometry, i);
 }
 
 void SceneBuffers::updateGeometry(std::span<const std::uint32_t> movedParts) {
-  for (const std::uint32_t p : movedParts)
+  for (const std::uint32_t p : movedParts) {
     world_.update(geometry_, geometry_.parts[p].firstVertex, geometry_.parts[p].vertexCount);
+    boxes_[p] = computePartBox(geometry_, p);
+  }
   if (!movedParts.empty()) world_.setIndices(geometry_.indices, false);
 }
 

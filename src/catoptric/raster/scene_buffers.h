@@ -51,6 +51,8 @@ class SceneBuffers {
   [[nodiscard]] const std::vector<DrawRange>& opaqueRanges() const { return opaque_; }
   [[nodiscard]] const std::vector<DrawRange>& blendedRanges() const { return blended_; }
   [[nodiscard]] bool isBlended(std::uint32_t part) const;
+  /// Around the vertices of a part, world.
+  [[nodiscard]] const core::Box& partBox(std::uint32_t part) const { return boxes_[part]; }
 
  private:
   void uploadMaterials();
@@ -68,6 +70,7 @@ class SceneBuffers {
   std::unique_ptr<gl::Texture> white_, radiance_, prefiltered_;
   std::vector<vec3> irradiance_;
   std::vector<DrawRange> opaque_, blended_;
+  std::vector<core::Box> boxes_;  ///< by part
 };
 
 }  // namespace catoptric::raster

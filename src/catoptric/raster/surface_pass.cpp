@@ -101,6 +101,15 @@ void SurfacePass::drawRanges(const SceneBuffers& scene, const VertexStreams& str
   }
 }
 
+void sortNearFirst(const SceneBuffers& scene, const dvec3& from, std::vector<DrawRange>& ranges) {
+  const auto distance = [&](const DrawRange& range) {
+    const core::Box& box = scene.partBox(range.part);
+    return glm::length(from - glm::clamp(from, box.lower, box.upper));
+  };
+  std::stable_sort(ranges.begin(), ranges.end(),
+                   [&](const DrawRange& a, const DrawRange& b) { return distance(a) < distance(b); });
+}
+
 void sortBlendedTriangles(std::span<const DrawRange> ranges, std::span<const std::uint32_t> indices,
                           std::span<const vec3> drawPositions, const dvec3& eye,
                           std::vector<std::uint32_t>& sortedIndices, std::vector<DrawRange>& sortedRanges) {
@@ -152,7 +161,15 @@ void PrimaryPass::draw(const SceneBuffers& scene, const scene::CameraFrame& came
 void PrimaryPass::draw(const SceneBuffers& scene, const PinholeView& pinhole, Level& target,
                        std::uint32_t excludedReflector) {
   target.clear();
-  gl::setDrawState({.depthTest = false, .depthWrite = false});
+  SurfaceView view;
+  view.clipFromDraw = pinhole.clipFromWorld;
+  view.eye = view.drawEye = pinhole.eye;
+  view.excludedReflector = excludedReflector;
+  sortedRanges_ = scene.opaqueRanges();
+  sortNearFirst(scene, pinhole.eye, sortedRanges_);
+  surfaces_.draw(scene, scene.world(), sortedRanges_, view, target);
+
+  gl::setDrawState({.depthTest = true, .depthEqual = true, .depthWrite = false});
   background_.use();
   scene.bindEnvironment(background_);
   background_.set("u_rayOrigin", vec3(pinhole.rayOrigin));
@@ -160,12 +177,6 @@ void PrimaryPass::draw(const SceneBuffers& scene, const PinholeView& pinhole, Le
   background_.set("u_rayDy", vec3(pinhole.rayDy));
   nothing_.bind();
   gl::drawScreen();
-
-  SurfaceView view;
-  view.clipFromDraw = pinhole.clipFromWorld;
-  view.eye = view.drawEye = pinhole.eye;
-  view.excludedReflector = excludedReflector;
-  surfaces_.draw(scene, scene.world(), scene.opaqueRanges(), view, target);
   if (scene.blendedRanges().empty()) return;
   if (!blendedStreams_) blendedStreams_ = std::make_unique<VertexStreams>(scene.geometry());
   sortBlendedTriangles(scene.blendedRanges(), scene.geometry().indices, scene.geometry().positions,

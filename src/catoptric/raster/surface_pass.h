@@ -52,6 +52,10 @@ void bindSurfaceShading(gl::Program& program, const SceneBuffers& scene);
 /// And for one part, its material included.
 void bindPart(gl::Program& program, const SceneBuffers& scene, std::uint32_t part, const Chain* chain);
 
+/// Orders opaque ranges by the distance of their part's box from a point: what is near is drawn first, so
+/// that little of what it hides is shaded.
+void sortNearFirst(const SceneBuffers& scene, const dvec3& from, std::vector<DrawRange>& ranges);
+
 /// Orders the triangles of `ranges` from far to near, as seen from `eye`, and packs them into new ranges over
 /// `sortedIndices`.
 void sortBlendedTriangles(std::span<const DrawRange> ranges, std::span<const std::uint32_t> indices,

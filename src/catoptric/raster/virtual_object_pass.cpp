@@ -17,6 +17,7 @@ void VirtualObjectPass::draw(FrameContext& frame, const SurfaceView& view,
   for (const TessellatedPart& part : triangles_.parts)
     (frame.scene.isBlended(part.part) ? blended_ : opaque_)
         .push_back({part.part, part.firstIndex, part.indexCount});
+  sortNearFirst(frame.scene, frame.scene.geometry().reflectors[view.chain->last].centre, opaque_);
   frame.surfaces.draw(frame.scene, streams_, opaque_, view, target);
   if (blended_.empty()) return;
   sortBlendedTriangles(blended_, triangles_.indices, virtualPositions, view.drawEye, sortedIndices_, sorted_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps: 1 environment in the mirror direction, 2 morph the vertices, 3 draw the triangles where the level
-// before shows the mirror.
+// Steps: 1 morph the vertices, 2 draw the triangles where the level before shows the mirror, 3 the
+// environment in the mirror direction behind them.
 #include "catoptric/reflection_morphing/reflection_morphing_method.h"
 
 #include <algorithm>
@@ -104,12 +104,9 @@ void ReflectionMorphingMethod::morph(raster::FrameContext& frame, const raster::
   frame.counters.virtualVerticesMs += millisecondsSince(start);
 }
 
-void ReflectionMorphingMethod::render(raster::FrameContext& frame, const raster::Chain& chain,
-                                      const raster::Level& parent, raster::Level& target) {
+void ReflectionMorphingMethod::drawObjects(raster::FrameContext& frame, const raster::Chain& chain,
+                                           const raster::Level& parent, raster::Level& target) {
   // 1
-  background_.draw(frame.scene, chain, parent, target);
-
-  // 2
   const auto& reflectors = frame.scene.geometry().reflectors;
   const auto lastCurved = std::find_if(chain.mirrors.rbegin(), chain.mirrors.rend(), [&](std::uint32_t r) {
     return reflectors[r].shape != scene::ReflectorShape::Plane;
@@ -118,7 +115,7 @@ void ReflectionMorphingMethod::render(raster::FrameContext& frame, const raster:
   if (objects.objects.indices.empty()) return;
   morph(frame, chain, objects);
 
-  // 3
+  // 2
   // After several mirrors the first mirror point says nothing about orientation: points that coincide with
   // theirs are not judged.
   const std::span<const vec3> scenePoints =
@@ -134,6 +131,13 @@ void ReflectionMorphingMethod::render(raster::FrameContext& frame, const raster:
                              reflectors[chain.mirrors[chain.mirrors.size() - 2]].centre, view);
   objects.pass.draw(frame, view, objects.virtualPositions, corners_[chain.mirrors].kinds,
                     objects.mirrorPoints, scenePoints, target);
+}
+
+void ReflectionMorphingMethod::render(raster::FrameContext& frame, const raster::Chain& chain,
+                                      const raster::Level& parent, raster::Level& target) {
+  drawObjects(frame, chain, parent, target);
+  // 3
+  background_.draw(frame.scene, chain, parent, target);
 }
 
 }  // namespace catoptric::reflection_morphing

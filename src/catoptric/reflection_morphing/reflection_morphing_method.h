@@ -45,6 +45,8 @@ class ReflectionMorphingMethod : public raster::ReflectionMethod {
     std::vector<vec3> virtualPositions, mirrorPoints;
   };
   Objects& getObjects(const raster::FrameContext& frame, std::uint32_t reflector);
+  void drawObjects(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
+                   raster::Level& target);
   [[nodiscard]] CellTrace findCellTrace(const std::vector<std::uint32_t>& trace) const;
   void morph(raster::FrameContext& frame, const raster::Chain& chain, Objects& objects);
 

@@ -127,7 +127,9 @@ void RasterFrame::prepareLevels(int count, int widthPx, int heightPx) {
 }
 
 std::vector<raster::Chain> RasterFrame::findChains(const raster::Level& level,
-                                                   const std::vector<raster::Chain>& parents) {
+                                                   const std::vector<raster::Chain>& parents,
+                                                   bool& isComplete) {
+  isComplete = true;
   const int width = level.widthPx, height = level.heightPx;
   idsPixels_.resize(std::size_t(width) * std::size_t(height));
   level.surfaces.readPixels(3, std::span<uvec2>(idsPixels_));
@@ -154,10 +156,12 @@ std::vector<raster::Chain> RasterFrame::findChains(const raster::Level& level,
     }
   std::vector<raster::Chain> chains;
   for (const auto& [word, extent] : extents) {
-    if (lastChain_ + 1 >= kMaxChains) break;  // the rest shows the environment
     const auto parent = std::find_if(parents.begin(), parents.end(),
                                      [id = word >> 16](const raster::Chain& c) { return c.id == id; });
-    if (parent == parents.end()) continue;
+    if (parent == parents.end() || lastChain_ + 1 >= kMaxChains) {
+      isComplete = false;  // the rest shows the environment
+      continue;
+    }
     raster::Chain chain = raster::extendChain(*parent, (word & 0xffffu) - 1u, geometry_);
     chain.id = ++lastChain_;
     chain.bounds = {extent.x0, extent.y0, extent.x1 - extent.x0 + 1, extent.y1 - extent.y0 + 1};
@@ -206,7 +210,8 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   std::uint64_t visibleReflectors = 0;
   for (int level = 0; level < bounces; ++level) {
     // 2
-    const std::vector<raster::Chain> chains = findChains(*levels_[std::size_t(level)], parents);
+    bool isComplete = false;
+    const std::vector<raster::Chain> chains = findChains(*levels_[std::size_t(level)], parents, isComplete);
     if (level == 0) visibleReflectors = chains.size();
     if (chains.empty()) break;
     context.parentIds = idsPixels_;
@@ -214,9 +219,12 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
     // 3, 4
     raster::Level& target = *levels_[std::size_t(level) + 1];
     target.clear(findUnion(chains));
+    target.isComplete = isComplete;
     for (const raster::Chain& chain : chains)
       if (raster::ReflectionMethod* method = pickMethod(chain, options))
         method->render(context, chain, *levels_[std::size_t(level)], target);
+      else
+        target.isComplete = false;
     ++levelCount;
     parents = chains;
   }
@@ -224,7 +232,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   // 5
   for (int level = levelCount - 1; level >= 0; --level)
     compose_.draw(scene_, *levels_[std::size_t(level)],
-                  level + 1 < levelCount ? levels_[std::size_t(level) + 1].get() : nullptr);
+                  level + 1 < levelCount ? levels_[std::size_t(level) + 1].get() : nullptr, options.withSeen);
   context_.finish();
   context_.check("a frame");
   frame.timings.totalMs += millisecondsSince(start);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps: 1 environment in the mirror direction, 2 virtual vertices on the CPU, 3 draw the virtual object
-// where the level before shows the mirror, dropping fragments before the mirror's own depth.
+// Steps: 1 virtual vertices on the CPU, 2 draw the virtual object where the level before shows the mirror,
+// dropping fragments before the mirror's own depth, 3 the environment in the mirror direction behind it.
 #include "catoptric/virtual_object/virtual_object_method.h"
 
 #include <chrono>
@@ -79,19 +79,16 @@ void VirtualObjectMethod::computeVirtualVertices(raster::FrameContext& frame, co
   frame.counters.virtualVerticesMs += spent.count();
 }
 
-void VirtualObjectMethod::render(raster::FrameContext& frame, const raster::Chain& chain,
-                                 const raster::Level& parent, raster::Level& target) {
+void VirtualObjectMethod::drawObjects(raster::FrameContext& frame, const raster::Chain& chain,
+                                      const raster::Level& parent, raster::Level& target) {
   // 1
-  background_.draw(frame.scene, chain, parent, target);
-
-  // 2
   const dvec3 drawEye = dvec3(glm::inverse(chain.screenFromDraw) * dvec4(frame.camera.eye, 1.0));
   Prepared& p = prepareReflector(frame, chain, drawEye);
   if (p.objects.indices.empty()) return;
   computeVirtualVertices(frame, chain, drawEye, p);
   if (!p.solver->canReflect()) return;
 
-  // 3
+  // 2
   raster::SurfaceView view;
   view.clipFromDraw =
       raster::makeClipFromWorld(frame.camera, frame.nearPlane, frame.jitterPx) * chain.screenFromDraw;
@@ -105,6 +102,13 @@ void VirtualObjectMethod::render(raster::FrameContext& frame, const raster::Chai
   const bool isMirrored = chain.drawFromWorld != dmat4(1.0);
   p.pass.draw(frame, view, p.virtualPositions, p.kinds, p.reflectionPoints,
               isMirrored ? std::span<const vec3>(p.scenePoints) : std::span<const vec3>(), target);
+}
+
+void VirtualObjectMethod::render(raster::FrameContext& frame, const raster::Chain& chain,
+                                 const raster::Level& parent, raster::Level& target) {
+  drawObjects(frame, chain, parent, target);
+  // 3
+  background_.draw(frame.scene, chain, parent, target);
 }
 
 }  // namespace catoptric::virtual_object

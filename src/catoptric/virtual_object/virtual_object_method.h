@@ -44,6 +44,8 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     std::vector<vec3> virtualPositions, reflectionPoints;
     std::vector<VertexKind> kinds;
   };
+  void drawObjects(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
+                   raster::Level& target);
   Prepared& prepareReflector(const raster::FrameContext& frame, const raster::Chain& chain,
                              const dvec3& drawEye);
   void computeVirtualVertices(raster::FrameContext& frame, const raster::Chain& chain, const dvec3& drawEye,

@@ -260,7 +260,6 @@ void ExactMethod::drawBlended(raster::FrameContext& frame, const raster::Chain& 
 
 void ExactMethod::render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
                          raster::Level& target) {
-  background_.draw(frame.scene, chain, parent, target);
   // 1
   prepareScene(frame, parent);
   readRays(parent);
@@ -276,8 +275,11 @@ void ExactMethod::render(raster::FrameContext& frame, const raster::Chain& chain
   // 3
   rectArray_.bind();
   drawHits(frame, chain, parent, query);
-  // 4, 5
+  // 4
   shadeHits(frame, chain, parent, target);
+  // 5
+  background_.draw(frame.scene, chain, parent, target);
+  rectArray_.bind();
   drawBlended(frame, chain, parent, target);
 }
 

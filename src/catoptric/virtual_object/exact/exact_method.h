@@ -13,7 +13,8 @@
 //   surfaces
 //      (exact_shade.frag). Derivatives of texture coordinates are those of the rays (Igehy 1999), not of the
 //      fragments.
-//   5. Blended triangles over it, from far to near as seen from the mirror's centre.
+//   5. The environment behind it; blended triangles over it, from far to near as seen from the mirror's
+//   centre.
 // Departures: methods.md bounds a virtual triangle by its three reflection points; tiles need none, so
 // chains, saddles
 //   and foci are no special cases.
