@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Level 0: the environment behind everything, seen directly.
+// Level 0: the environment behind everything, seen directly. Define SEEN: says what is seen, too.
 
 #include "lib/environment.glsl"
 #include "raster/environment_lookup.glsl"
@@ -10,9 +10,10 @@ uniform vec3 u_rayDx;      // its change per pixel to the right
 uniform vec3 u_rayDy;      // its change per pixel upwards
 
 layout(location = 0) out vec4 o_radiance;
-layout(location = 1) out vec4 o_position;
-layout(location = 2) out vec4 o_weight;
-layout(location = 3) out uvec2 o_ids;
+layout(location = 1) out uvec2 o_ids;
+#ifdef SEEN
+layout(location = 2) out vec4 o_position;
+#endif
 
 void main() {
   vec3 ray = u_rayOrigin + gl_FragCoord.x * u_rayDx + gl_FragCoord.y * u_rayDy;
@@ -21,7 +22,8 @@ void main() {
   vec3 dx = (u_rayDx - d * dot(d, u_rayDx)) / rayLength;
   vec3 dy = (u_rayDy - d * dot(d, u_rayDy)) / rayLength;
   o_radiance = vec4(lookUpEnvironment(d, dx, dy), 0.0f);
-  o_position = vec4(d, kSkyPath);
-  o_weight = vec4(0.0f);
   o_ids = uvec2(0u);
+#ifdef SEEN
+  o_position = vec4(d, kSkyPath);
+#endif
 }

@@ -4,7 +4,8 @@
 //   position    rgb: world point                           a: length of the path from the eye
 //   weight      rgb: what part of the mirrored radiance    a: octahedral y of the mirror direction
 //   ids         r: (object + 1) | shell << 31              g: (reflector + 1) | chain << 16
-// For the sky `position` holds the unit direction and kSkyPath, ids.r is 0.
+// For the sky `position` holds the unit direction and kSkyPath, ids.r is 0. Where no mirror is, weight and both halves of
+// the mirror direction say nothing, nor does position unless the level says what is seen.
 
 const float kSkyPath = 1.0e30f;
 

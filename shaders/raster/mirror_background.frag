@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Level > 0: the environment in the mirror direction, exact at every pixel; virtual objects are drawn over it.
+// Level > 0: the environment in the mirror direction, exact at every pixel, behind the virtual objects. Define SEEN:
+// says what is seen, too.
 
 #include "lib/environment.glsl"
 #include "raster/environment_lookup.glsl"
@@ -12,9 +13,10 @@ uniform uint u_parentWord;  // ids.g of the mirror's pixels
 uniform uint u_chain;
 
 layout(location = 0) out vec4 o_radiance;
-layout(location = 1) out vec4 o_position;
-layout(location = 2) out vec4 o_weight;
-layout(location = 3) out uvec2 o_ids;
+layout(location = 1) out uvec2 o_ids;
+#ifdef SEEN
+layout(location = 2) out vec4 o_position;
+#endif
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -23,7 +25,8 @@ void main() {
   vec3 dx = readMirrorDirectionStep(u_parentRadiance, u_parentWeight, u_parentIds, pixel, ivec2(1, 0), d);
   vec3 dy = readMirrorDirectionStep(u_parentRadiance, u_parentWeight, u_parentIds, pixel, ivec2(0, 1), d);
   o_radiance = vec4(lookUpEnvironment(d, dx, dy), 0.0f);
-  o_position = vec4(d, kSkyPath);
-  o_weight = vec4(0.0f);
   o_ids = uvec2(0u, u_chain << 16u);
+#ifdef SEEN
+  o_position = vec4(d, kSkyPath);
+#endif
 }

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shades a fragment of the scene in world space, seen directly (level 0) or as a virtual object through a chain of
-// mirrors (level > 0), and stores what the next level needs.
-// Defines: OVERLAY = blended surfaces; only premultiplied colour is written. TEXTURES: see raster/material.glsl.
+// mirrors (level > 0).
+// Defines, besides TEXTURES (see raster/material.glsl):
+//   PARENT   level > 0
+//   MIRROR   a reflector: stores what the next level needs. Others store
+//   SEEN     what is seen at this pixel, too
+//   OVERLAY  blended surfaces: only premultiplied colour
 
 #include "lib/brdf.glsl"
 #include "lib/environment.glsl"
@@ -23,31 +27,38 @@ uniform vec3 u_eye;               // level 0: where the view ray starts, world
 uniform vec3 u_drawEye;           // the eye in draw space
 uniform int u_windingFlipped;     // 1 where an odd number of mirrors turned the winding round
 
-uniform int u_hasParent;          // level > 0
+#ifdef PARENT
 uniform uint u_parentWord;        // ids.g that a pixel of the level before must have
 uniform vec4 u_clipPlane;         // world: dot(xyz, p) + w >= 0 lies before the last planar mirror; zero = none
 uniform sampler2D u_parentPosition;
 uniform usampler2D u_parentIds;
+#endif
 
-#ifdef OVERLAY
-layout(location = 0) out vec4 o_color;
-#else
 layout(location = 0) out vec4 o_radiance;
+#if defined(MIRROR)
 layout(location = 1) out vec4 o_position;
 layout(location = 2) out vec4 o_weight;
 layout(location = 3) out uvec2 o_ids;
+#elif !defined(OVERLAY)
+layout(location = 1) out uvec2 o_ids;
+#ifdef SEEN
+layout(location = 2) out vec4 o_position;
+#endif
 #endif
 
 /// False where this fragment cannot be seen through its chain; `from` is where the last view ray starts.
 bool isSeenThroughChain(ivec2 pixel, float path, out vec3 from) {
   from = u_eye;
-  if (u_hasParent == 0) return true;
+#ifdef PARENT
   if (texelFetch(u_parentIds, pixel, 0).y != u_parentWord) return false;
   vec4 parent = texelFetch(u_parentPosition, pixel, 0);
   from = parent.xyz;
   if (dot(u_clipPlane.xyz, v_position) + u_clipPlane.w < 0.0f) return false;
   // The second z-buffer of 1998, section 3: nothing lies before the mirror that shows it.
   return path >= parent.w * 0.99999f;
+#else
+  return true;
+#endif
 }
 
 void main() {
@@ -76,13 +87,19 @@ void main() {
   if (isCutOut(base)) discard;
 
   ShadedPoint shaded = shadePoint(p, shadingNormal(p), base.rgb);
-#ifdef OVERLAY
-  o_color = vec4(shaded.radiance * base.a, base.a);
-#else
+#if defined(OVERLAY)
+  o_radiance = vec4(shaded.radiance * base.a, base.a);
+#elif defined(MIRROR)
   vec2 oct = octahedralFromDirection(shaded.mirrorDirection);
   o_radiance = vec4(shaded.radiance, oct.x);
   o_position = vec4(v_position, path);
   o_weight = vec4(shaded.weight, oct.y);
   o_ids = uvec2(u_objectWord, u_reflectorWord);
+#else
+  o_radiance = vec4(shaded.radiance, 0.0f);
+  o_ids = uvec2(u_objectWord, u_reflectorWord);
+#ifdef SEEN
+  o_position = vec4(v_position, path);
+#endif
 #endif
 }

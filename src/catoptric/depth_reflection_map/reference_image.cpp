@@ -52,7 +52,7 @@ void ReferenceCache::capture(raster::FrameContext& frame, std::uint32_t reflecto
   if (!level_ || level_->widthPx != camera.width || level_->heightPx != camera.height)
     level_ = std::make_unique<raster::Level>(camera.width, camera.height);
   frame.primary.draw(frame.scene, camera.makeView(), *level_, reflector);
-  frame.compose.draw(frame.scene, *level_, nullptr, true);
+  frame.compose.draw(frame.scene, *level_, nullptr);
 
   const std::array<const gl::Texture*, 2> targets{&image.color, &image.zexels};
   const gl::Framebuffer framebuffer(targets, nullptr);

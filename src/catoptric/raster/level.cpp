@@ -29,9 +29,11 @@ Level::Level(int width, int height)
       seenPosition(makeTarget(gl::Format::Rgba32F, width, height)),
       seenIds(makeTarget(gl::Format::Rg32Ui, width, height)),
       surfaces(makeFramebuffer({&radiance, &position, &weight, &ids}, &depth)),
+      plain(makeFramebuffer({&radiance, &ids}, &depth)),
+      plainSeen(makeFramebuffer({&radiance, &ids, &position}, &depth)),
       overlays(makeFramebuffer({&overlay}, &depth)),
-      composed(makeFramebuffer({&color, &seenPosition, &seenIds}, nullptr)),
-      composedColor(makeFramebuffer({&color}, nullptr)) {}
+      composedColor(makeFramebuffer({&color}, nullptr)),
+      composed(makeFramebuffer({&color, &seenPosition, &seenIds}, nullptr)) {}
 
 void Level::clear(const gl::Scissor& drawn) {
   drawnBounds = drawn;
@@ -68,13 +70,13 @@ gl::Program& ComposePass::findProgram(unsigned features) {
   return *program;
 }
 
-void ComposePass::draw(const SceneBuffers& scene, const Level& level, const Level* next, bool withSeen) {
-  (withSeen ? level.composed : level.composedColor).bind();
+void ComposePass::draw(const SceneBuffers& scene, const Level& level, const Level* next) {
+  (level.withSeen ? level.composed : level.composedColor).bind();
   gl::setScissor(level.drawnBounds);
   gl::setDrawState({.depthTest = false, .depthWrite = false});
   const bool showsEnvironment = next == nullptr || !next->isComplete;
   gl::Program& program = findProgram((next ? kNext : 0u) | (showsEnvironment ? kEnvironment : 0u) |
-                                     (level.hasOverlay ? kOverlay : 0u) | (withSeen ? kSeen : 0u));
+                                     (level.hasOverlay ? kOverlay : 0u) | (level.withSeen ? kSeen : 0u));
   program.use();
   scene.bindEnvironment(program);
   const Level& other = next ? *next : level;

@@ -20,15 +20,21 @@ struct Level {
   /// Nothing is stored, and nothing will be outside of `drawn`.
   void clear(const gl::Scissor& drawn);
   void clear() { clear({0, 0, widthPx, heightPx}); }
+  /// What is drawn into where no mirror is.
+  [[nodiscard]] const gl::Framebuffer& plainTarget() const { return withSeen ? plainSeen : plain; }
   /// Binds the stored pictures as the "parent" that the next level reads.
   void bindAsParent(gl::Program& program) const;
 
   int widthPx, heightPx;
   gl::Texture radiance, position, weight, ids, depth;
-  gl::Texture overlay;                                          ///< blended surfaces, premultiplied
-  gl::Texture color, seenPosition, seenIds;                     ///< composed
-  gl::Framebuffer surfaces, overlays, composed, composedColor;  ///< composedColor: without what is seen
-  gl::Scissor drawnBounds;                                      ///< pixels that may show something
+  gl::Texture overlay;                       ///< blended surfaces, premultiplied
+  gl::Texture color, seenPosition, seenIds;  ///< composed
+  gl::Framebuffer surfaces;                  ///< of mirrors: radiance, position, weight, ids
+  gl::Framebuffer plain, plainSeen;          ///< of all else: radiance, ids; and position
+  gl::Framebuffer overlays;
+  gl::Framebuffer composedColor, composed;  ///< color; and what is seen
+  bool withSeen = true;                     ///< also says what is seen at each pixel
+  gl::Scissor drawnBounds;                  ///< pixels that may show something
   bool hasOverlay = false;
   bool isComplete = false;  ///< something was drawn for every mirror pixel of the level before
 };
@@ -37,9 +43,8 @@ struct Level {
 class ComposePass {
  public:
   ComposePass();
-  /// `next` may be null: mirrors show the environment. `withSeen`: carries along what is seen; the next level
-  /// must have been composed so, too.
-  void draw(const SceneBuffers& scene, const Level& level, const Level* next, bool withSeen);
+  /// `next` may be null: mirrors show the environment.
+  void draw(const SceneBuffers& scene, const Level& level, const Level* next);
 
  private:
   enum Feature : unsigned { kNext = 1, kEnvironment = 2, kOverlay = 4, kSeen = 8 };

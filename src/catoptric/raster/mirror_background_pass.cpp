@@ -4,18 +4,20 @@
 namespace catoptric::raster {
 
 MirrorBackgroundPass::MirrorBackgroundPass()
-    : program_("raster/screen.vert", "raster/mirror_background.frag") {}
+    : program_("raster/screen.vert", "raster/mirror_background.frag"),
+      programSeen_("raster/screen.vert", "raster/mirror_background.frag", {"SEEN"}) {}
 
 void MirrorBackgroundPass::draw(const SceneBuffers& scene, const Chain& chain, const Level& parent,
                                 const Level& target) {
-  target.surfaces.bind();
+  target.plainTarget().bind();
   gl::setScissor(chain.bounds);
   gl::setDrawState({.depthTest = true, .depthEqual = true, .depthWrite = false});
-  program_.use();
-  scene.bindEnvironment(program_);
-  parent.bindAsParent(program_);
-  program_.set("u_parentWord", chain.parentWord());
-  program_.set("u_chain", chain.id);
+  gl::Program& program = target.withSeen ? programSeen_ : program_;
+  program.use();
+  scene.bindEnvironment(program);
+  parent.bindAsParent(program);
+  program.set("u_parentWord", chain.parentWord());
+  program.set("u_chain", chain.id);
   nothing_.bind();
   gl::drawScreen();
 }

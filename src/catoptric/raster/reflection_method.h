@@ -60,7 +60,7 @@ class MirrorBackgroundPass {
   void draw(const SceneBuffers& scene, const Chain& chain, const Level& parent, const Level& target);
 
  private:
-  gl::Program program_;
+  gl::Program program_, programSeen_;
   gl::VertexArray nothing_;
 };
 

@@ -37,20 +37,20 @@ void setView(gl::Program& program, const SceneBuffers& scene, const SurfaceView&
   program.set("u_drawEye", vec3(view.drawEye));
   program.set("u_windingFlipped", view.windingFlipped ? 1 : 0);
   program.set("u_clipPlane", view.clipPlane);
-  program.set("u_hasParent", view.parent ? 1 : 0);
-  program.set("u_parentPosition", int(kUnitFirstFree) + 1);  // also where nothing is bound: kinds must differ
-  program.set("u_parentIds", int(kUnitFirstFree) + 3);
   if (view.parent) view.parent->bindAsParent(program);
   program.set("u_parentWord", view.chain ? view.chain->parentWord() : 0u);
 }
 
 }  // namespace
 
-gl::Program& SurfacePass::findProgram(unsigned textureBits, bool blended) {
-  std::unique_ptr<gl::Program>& program = (blended ? blended_ : opaque_)[textureBits];
+gl::Program& SurfacePass::findProgram(unsigned features) {
+  std::unique_ptr<gl::Program>& program = programs_[features];
   if (!program) {
-    std::vector<std::string> defines{"TEXTURES " + std::to_string(textureBits)};
-    if (blended) defines.emplace_back("OVERLAY");
+    std::vector<std::string> defines{"TEXTURES " + std::to_string(features & 31u)};
+    const std::pair<Feature, const char*> names[] = {
+        {kOverlay, "OVERLAY"}, {kMirror, "MIRROR"}, {kSeen, "SEEN"}, {kParent, "PARENT"}};
+    for (const auto& [feature, name] : names)
+      if ((features & feature) != 0) defines.emplace_back(name);
     program = std::make_unique<gl::Program>("raster/surface.vert", "raster/surface.frag", defines);
     program->bindBlock("Material", 0);
   }
@@ -59,9 +59,19 @@ gl::Program& SurfacePass::findProgram(unsigned textureBits, bool blended) {
 
 void SurfacePass::draw(const SceneBuffers& scene, const VertexStreams& streams,
                        std::span<const DrawRange> ranges, const SurfaceView& view, const Level& target) {
-  target.surfaces.bind();
-  if (view.chain) gl::setScissor(view.chain->bounds);
-  drawRanges(scene, streams, ranges, view, false);
+  mirrors_.clear();
+  others_.clear();
+  for (const DrawRange& range : ranges)
+    (scene.geometry().parts[range.part].reflector != core::kNoId ? mirrors_ : others_).push_back(range);
+  const auto drawInto = [&](const gl::Framebuffer& framebuffer, std::span<const DrawRange> some,
+                            unsigned features) {
+    if (some.empty()) return;
+    framebuffer.bind();
+    if (view.chain) gl::setScissor(view.chain->bounds);
+    drawRanges(scene, streams, some, view, features);
+  };
+  drawInto(target.surfaces, mirrors_, kMirror);
+  drawInto(target.plainTarget(), others_, target.withSeen ? kSeen : 0u);
 }
 
 void SurfacePass::drawBlended(const SceneBuffers& scene, const VertexStreams& streams,
@@ -71,11 +81,13 @@ void SurfacePass::drawBlended(const SceneBuffers& scene, const VertexStreams& st
   if (!target.hasOverlay) target.overlays.clearColor(0, vec4(0.0f));
   target.hasOverlay = true;
   if (view.chain) gl::setScissor(view.chain->bounds);
-  drawRanges(scene, streams, ranges, view, true);
+  drawRanges(scene, streams, ranges, view, kOverlay);
 }
 
 void SurfacePass::drawRanges(const SceneBuffers& scene, const VertexStreams& streams,
-                             std::span<const DrawRange> ranges, const SurfaceView& view, bool blended) {
+                             std::span<const DrawRange> ranges, const SurfaceView& view, unsigned features) {
+  if (view.parent) features |= kParent;
+  const bool blended = (features & kOverlay) != 0;
   const scene::WorldGeometry& world = scene.geometry();
   std::uint32_t prepared = 0;  // bit k: the program for textures k knows this view
   streams.bind();
@@ -85,7 +97,7 @@ void SurfacePass::drawRanges(const SceneBuffers& scene, const VertexStreams& str
       continue;
     const scene::Material& material = scene.material(part.material);
     const unsigned textures = scene.textureBits(part.material);
-    gl::Program& program = findProgram(textures, blended);
+    gl::Program& program = findProgram(textures | features);
     if ((prepared >> textures & 1u) == 0)
       setView(program, scene, view);
     else
@@ -144,7 +156,9 @@ dmat4 makeClipFromWorld(const scene::CameraFrame& camera, double nearPlane, cons
 }
 
 PrimaryPass::PrimaryPass(SurfacePass& surfaces)
-    : surfaces_(surfaces), background_("raster/screen.vert", "raster/background.frag") {}
+    : surfaces_(surfaces),
+      background_("raster/screen.vert", "raster/background.frag"),
+      backgroundSeen_("raster/screen.vert", "raster/background.frag", {"SEEN"}) {}
 
 PinholeView makePinholeView(const scene::CameraFrame& camera, double nearPlane, const dvec2& jitterPx) {
   // gl_FragCoord counts from the lower left corner and points at pixel centres.
@@ -169,12 +183,14 @@ void PrimaryPass::draw(const SceneBuffers& scene, const PinholeView& pinhole, Le
   sortNearFirst(scene, pinhole.eye, sortedRanges_);
   surfaces_.draw(scene, scene.world(), sortedRanges_, view, target);
 
+  target.plainTarget().bind();
   gl::setDrawState({.depthTest = true, .depthEqual = true, .depthWrite = false});
-  background_.use();
-  scene.bindEnvironment(background_);
-  background_.set("u_rayOrigin", vec3(pinhole.rayOrigin));
-  background_.set("u_rayDx", vec3(pinhole.rayDx));
-  background_.set("u_rayDy", vec3(pinhole.rayDy));
+  gl::Program& background = target.withSeen ? backgroundSeen_ : background_;
+  background.use();
+  scene.bindEnvironment(background);
+  background.set("u_rayOrigin", vec3(pinhole.rayOrigin));
+  background.set("u_rayDx", vec3(pinhole.rayDx));
+  background.set("u_rayDy", vec3(pinhole.rayDy));
   nothing_.bind();
   gl::drawScreen();
   if (scene.blendedRanges().empty()) return;

@@ -36,15 +36,16 @@ class SurfacePass {
                    const SurfaceView& view, Level& target);
 
  private:
-  /// A program for each set of textures that a material has (bits of SceneBuffers::textureBits()), made when
-  /// it is first used.
-  using Programs = std::array<std::unique_ptr<gl::Program>, 32>;
+  /// A program is made for each set of textures that a material has (bits of SceneBuffers::textureBits()) and
+  /// each set of these, when it is first used.
+  enum Feature : unsigned { kOverlay = 32, kMirror = 64, kSeen = 128, kParent = 256 };
 
   void drawRanges(const SceneBuffers& scene, const VertexStreams& streams, std::span<const DrawRange> ranges,
-                  const SurfaceView& view, bool blended);
-  [[nodiscard]] gl::Program& findProgram(unsigned textureBits, bool blended);
+                  const SurfaceView& view, unsigned features);
+  [[nodiscard]] gl::Program& findProgram(unsigned features);
 
-  Programs opaque_, blended_;
+  std::array<std::unique_ptr<gl::Program>, 512> programs_;
+  std::vector<DrawRange> mirrors_, others_;
 };
 
 /// Sets what raster/surface_shading.glsl needs, for any part; the program must be in use.
@@ -83,7 +84,7 @@ class PrimaryPass {
 
  private:
   SurfacePass& surfaces_;
-  gl::Program background_;
+  gl::Program background_, backgroundSeen_;
   gl::VertexArray nothing_;
   std::unique_ptr<VertexStreams> blendedStreams_;
   std::vector<std::uint32_t> sortedIndices_;

@@ -198,6 +198,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
       counters, {}};
 
   // 1
+  levels_[0]->withSeen = options.withSeen;
   primary_.draw(scene_, camera, context.nearPlane, jitterPx, *levels_[0]);
   context_.finish();
   frame.timings.primaryMs += millisecondsSince(start);
@@ -220,6 +221,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
     raster::Level& target = *levels_[std::size_t(level) + 1];
     target.clear(findUnion(chains));
     target.isComplete = isComplete;
+    target.withSeen = options.withSeen;
     for (const raster::Chain& chain : chains)
       if (raster::ReflectionMethod* method = pickMethod(chain, options))
         method->render(context, chain, *levels_[std::size_t(level)], target);
@@ -232,7 +234,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   // 5
   for (int level = levelCount - 1; level >= 0; --level)
     compose_.draw(scene_, *levels_[std::size_t(level)],
-                  level + 1 < levelCount ? levels_[std::size_t(level) + 1].get() : nullptr, options.withSeen);
+                  level + 1 < levelCount ? levels_[std::size_t(level) + 1].get() : nullptr);
   context_.finish();
   context_.check("a frame");
   frame.timings.totalMs += millisecondsSince(start);
