@@ -81,7 +81,7 @@ class ReflectorDistance {
       normalSpread_ = std::max(normalSpread_, glm::length(normals[i] - normals_[nearest[i]]));
   }
 
-  /// Half the median radius of curvature, at most the size of the reflector.
+  /// Half the median radius of curvature, at most kFlattest times the size of the reflector.
   [[nodiscard]] static double findFocalLength(const scene::WorldGeometry& geometry, const scene::Part& part) {
     core::Box box;
     std::vector<double> curvatures;
@@ -100,10 +100,11 @@ class ReflectorDistance {
     }
     std::nth_element(curvatures.begin(), curvatures.begin() + curvatures.size() / 2, curvatures.end());
     const double median = curvatures[curvatures.size() / 2], size = box.radius() / std::sqrt(3.0);
-    return median * size > 0.5 ? 0.5 / median : size;
+    return 0.5 / std::max(median, 0.5 / (kFlattest * size));
   }
 
   static constexpr std::size_t kSamples = 64;
+  static constexpr double kFlattest = 8;
   static constexpr float kInTriangle = 0.3f;  // of the longest edge: farthest from both corners and centroid
 
   std::vector<float> x_, y_, z_;

@@ -8,8 +8,8 @@
 //   straight
 //      misses its image by the sag of that image, about phi^2 / 8 times its radius of curvature on the
 //      screen, and by as much again along itself, because depth in the virtual object is path length and not
-//      the depth that would make perspective interpolation exact. Both grow with the mirror's diameter D on
-//      the screen:
+//      the depth that would make perspective interpolation exact. Both grow with the diameter D that a ball
+//      as curved as the mirror has on the screen, 4 c times the pixels of a unit of length:
 //          error_px = kSagFactor D_px phi^2,    phi = L / (d + c)  <=  k = sqrt(maxErrorPx / (kSagFactor
 //          D_px)).
 //      kSagFactor is fitted to the worst 2 % of pixels of the test scenes (tests/unit/virtual_object).
@@ -246,11 +246,24 @@ void appendPieces(TessellatedObjects& objects, std::uint32_t part, const PartPie
 
 }  // namespace
 
+double findTessellationSize(const scene::Reflector& reflector, const dvec3& eye,
+                            const scene::CameraFrame& camera) {
+  constexpr double kSmallest = 175, kLargest = 2800;
+  const double distance = glm::length(eye - reflector.centre);
+  const double pixelsPerRadian = camera.heightPx / (2.0 * camera.tanHalfFovY);
+  const double diameter = 2.0 * reflector.radius * pixelsPerRadian;  // at distance 1
+  double size = kSmallest;
+  while (size < kLargest && size * distance < diameter) size *= 2.0;
+  return size;
+}
+
 TessellatedObjects tessellateForReflector(const scene::WorldGeometry& geometry, std::uint32_t reflector,
                                           const TessellationOptions& options) {
   const std::uint32_t own = geometry.reflectors[reflector].part;
   const ReflectorDistance distance(geometry, geometry.parts[own], geometry.reflectors[reflector].doubleSided);
-  const double diameterPx = std::max(options.reflectorDiameterPx, 1.0);
+  const double pixelsPerUnit =
+      options.reflectorDiameterPx / (2.0 * std::max(geometry.reflectors[reflector].radius, 1e-30));
+  const double diameterPx = std::max(4.0 * double(distance.focalLength()) * pixelsPerUnit, 1.0);
   double k = std::sqrt(std::max(options.maxErrorPx, 1e-3) / (kSagFactor * diameterPx));
   k = std::min(k, 0.5);
   const double asked = k;

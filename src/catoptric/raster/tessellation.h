@@ -3,9 +3,10 @@
 //
 // An edge is split at its middle while it is longer than k (d + c): d the distance of its middle to the
 // reflector, c the reflector's focal length. The decision reads the two end positions only, so neighbours
-// decide alike, even where vertices are duplicated: no cracks. It does not depend on the eye: nothing pops
-// while the camera moves. New attributes are means of the ends and are *not* renormalised: the fragment
-// shader interpolates and normalises exactly as it does on the uncut triangle, so shading does not change.
+// decide alike, even where vertices are duplicated: no cracks. It depends on the eye only by the mirror's
+// size on the screen, in steps of two: nothing moves by more than the bound while the camera does. New
+// attributes are means of the ends and are *not* renormalised: the fragment shader interpolates and
+// normalises exactly as it does on the uncut triangle, so shading does not change.
 #pragma once
 
 #include <cstddef>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "catoptric/core/math.h"
+#include "catoptric/scene/camera_frame.h"
 #include "catoptric/scene/world_geometry.h"
 
 namespace catoptric::raster {
@@ -41,6 +43,12 @@ struct TessellationOptions {
   double reflectorDiameterPx = 700;   ///< at which size of the reflector on the screen (bounding sphere)
   std::size_t maxTriangles = 600000;  ///< budget; when hit, k is raised and one warning says so
 };
+
+/// For TessellationOptions::reflectorDiameterPx: the diameter of the reflector's bounding sphere as this
+/// camera sees it from `eye` (which planar mirrors may have moved), rounded up to 175 times a power of two,
+/// from 175 to 2800.
+[[nodiscard]] double findTessellationSize(const scene::Reflector& reflector, const dvec3& eye,
+                                          const scene::CameraFrame& camera);
 
 /// `reflector` is an index into geometry.reflectors. Pieces that lie behind a single-sided mirror altogether
 /// are left out.

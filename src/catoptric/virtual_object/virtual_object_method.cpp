@@ -10,12 +10,11 @@
 namespace catoptric::virtual_object {
 
 VirtualObjectMethod::Prepared::Prepared(const scene::WorldGeometry& world, std::uint32_t reflector,
-                                        bool flipped, double maxError)
-    : maxErrorPx(maxError),
+                                        bool flipped, const raster::TessellationOptions& tessellation)
+    : maxErrorPx(tessellation.maxErrorPx),
       isFromBehind(flipped),
       mesh(world, reflector, ReflectorMeshOptions{.flipped = flipped}),
-      objects(raster::tessellateForReflector(world, reflector,
-                                             raster::TessellationOptions{.maxErrorPx = maxError})),
+      objects(raster::tessellateForReflector(world, reflector, tessellation)),
       pass(objects),
       virtualPositions(objects.positions.size()),
       reflectionPoints(objects.positions.size()),
@@ -37,9 +36,12 @@ VirtualObjectMethod::Prepared& VirtualObjectMethod::prepareReflector(const raste
     }
     flipped = facing < 0;
   }
-  std::unique_ptr<Prepared>& slot = prepared_[{*chain.curved, flipped}];
+  const double size = raster::findTessellationSize(reflector, drawEye, frame.camera);
+  std::unique_ptr<Prepared>& slot = prepared_[{*chain.curved, flipped, size}];
   if (!slot || slot->maxErrorPx != frame.maxErrorPx)
-    slot = std::make_unique<Prepared>(world, *chain.curved, flipped, frame.maxErrorPx);
+    slot = std::make_unique<Prepared>(
+        world, *chain.curved, flipped,
+        raster::TessellationOptions{.maxErrorPx = frame.maxErrorPx, .reflectorDiameterPx = size});
   return *slot;
 }
 

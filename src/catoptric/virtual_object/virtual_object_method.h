@@ -6,6 +6,7 @@
 
 #include <map>
 #include <memory>
+#include <tuple>
 #include <vector>
 
 #include "catoptric/raster/reflection_method.h"
@@ -32,7 +33,8 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
  private:
   /// Everything kept for one curved reflector from frame to frame.
   struct Prepared {
-    Prepared(const scene::WorldGeometry& world, std::uint32_t reflector, bool flipped, double maxErrorPx);
+    Prepared(const scene::WorldGeometry& world, std::uint32_t reflector, bool flipped,
+             const raster::TessellationOptions& tessellation);
     double maxErrorPx;
     bool isFromBehind;  ///< the eye is behind a double-sided mirror
     ReflectorMesh mesh;
@@ -57,8 +59,8 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
 
   Solver solver_;
   raster::MirrorBackgroundPass background_;
-  std::map<std::pair<std::uint32_t, bool>, std::unique_ptr<Prepared>>
-      prepared_;  ///< reflector, seen from behind
+  /// By reflector, whether it is seen from behind, size of the tessellation.
+  std::map<std::tuple<std::uint32_t, bool, double>, std::unique_ptr<Prepared>> prepared_;
 };
 
 }  // namespace catoptric::virtual_object
