@@ -58,6 +58,7 @@ Json makeFrameJson(const renderer::FrameOptions& options, const renderer::Frame&
             {"capture_ms", times.captureMs}}},
           {"counters",
            {{"virtual_vertices", counters.virtualVertices},
+            {"culled_vertices", counters.culledVertices},
             {"virtual_triangles", counters.virtualTriangles},
             {"fragment_tests", counters.fragmentTests},
             {"reflectors_drawn", counters.reflectorsDrawn},

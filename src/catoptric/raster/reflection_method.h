@@ -12,6 +12,7 @@ namespace catoptric::raster {
 
 struct MethodCounters {
   std::uint64_t virtualVertices = 0;
+  std::uint64_t culledVertices = 0;
   std::uint64_t virtualTriangles = 0;
   std::uint64_t fragmentTests = 0;
   double virtualVerticesMs = 0;

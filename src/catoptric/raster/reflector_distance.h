@@ -28,12 +28,17 @@ class ReflectorDistance {
       surface.push_back((surface[i] + surface[i + 1] + surface[i + 2]) / 3.0f);
       normals.push_back((normals[i] + normals[i + 1] + normals[i + 2]) / 3.0f);
     }
+    vec3 sum(0);
+    for (const vec3& n : normals) sum += n;
+    turnsRound_ = glm::length(sum) < kTurned * float(normals.size());
     pickSamples(surface, normals);
     focalLength_ = float(findFocalLength(geometry, part));
     hasBack_ = !mayBeSeenFromBehind;
   }
 
   [[nodiscard]] float focalLength() const { return focalLength_; }
+  /// Its normals point all around, as a ball's do: some of it is always seen edge-on.
+  [[nodiscard]] bool turnsRound() const { return turnsRound_; }
 
   /// True where the point lies behind the tangent planes of all of the mirror, which then never reflects it.
   [[nodiscard]] bool isBehind(const vec3& p) const {
@@ -105,12 +110,13 @@ class ReflectorDistance {
 
   static constexpr std::size_t kSamples = 64;
   static constexpr double kFlattest = 8;
+  static constexpr float kTurned = 0.25f;  // length of the mean normal: 0 for a ball, a half for half of it
   static constexpr float kInTriangle = 0.3f;  // of the longest edge: farthest from both corners and centroid
 
   std::vector<float> x_, y_, z_;
   std::vector<vec3> normals_;
   float coverRadius_ = 0, focalLength_ = 1, normalSpread_ = 0, longestEdge_ = 0;
-  bool hasBack_ = false;
+  bool hasBack_ = false, turnsRound_ = false;
 };
 
 }  // namespace catoptric::raster

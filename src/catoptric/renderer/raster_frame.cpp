@@ -243,6 +243,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   frame.timings.virtualVerticesMs += counters.virtualVerticesMs;
   frame.timings.reflectionMs = frame.timings.totalMs - frame.timings.primaryMs;
   frame.counters.virtualVertices += counters.virtualVertices;
+  frame.counters.culledVertices += counters.culledVertices;
   frame.counters.virtualTriangles += counters.virtualTriangles;
   frame.counters.fragmentTests += counters.fragmentTests;
   frame.timings.warpMs += counters.warpMs;

@@ -15,6 +15,7 @@ VirtualObjectMethod::Prepared::Prepared(const scene::WorldGeometry& world, std::
       isFromBehind(flipped),
       mesh(world, reflector, ReflectorMeshOptions{.flipped = flipped}),
       objects(raster::tessellateForReflector(world, reflector, tessellation)),
+      runs(objects, VirtualObjectSolver::kRunLength),
       pass(objects),
       virtualPositions(objects.positions.size()),
       reflectionPoints(objects.positions.size()),
@@ -74,10 +75,21 @@ void VirtualObjectMethod::computeVirtualVertices(raster::FrameContext& frame, co
     points = prepared.scenePoints;
   }
   const Solver solver = equipSolver(frame.scene.geometry(), *chain.curved, prepared);
+  // The method as published is left as it is.
+  prepared.mayReflect.clear();
+  if (solver != Solver::Explosion && prepared.solver->canReflect())
+    findReflectedRuns(prepared.runs, prepared.solver->reflectedCone(), chain.drawFromWorld,
+                      prepared.mayReflect);
   prepared.solver->compute(solver, points, prepared.virtualPositions, prepared.kinds,
-                           prepared.reflectionPoints);
+                           prepared.reflectionPoints, prepared.mayReflect);
+  std::size_t culled = 0;
+  for (std::size_t run = 0; run < prepared.mayReflect.size(); ++run)
+    if (prepared.mayReflect[run] == 0)
+      culled +=
+          std::min(VirtualObjectSolver::kRunLength, points.size() - run * VirtualObjectSolver::kRunLength);
   const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
-  frame.counters.virtualVertices += points.size();
+  frame.counters.virtualVertices += points.size() - culled;
+  frame.counters.culledVertices += culled;
   frame.counters.virtualVerticesMs += spent.count();
 }
 

@@ -39,12 +39,14 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     bool isFromBehind;  ///< the eye is behind a double-sided mirror
     ReflectorMesh mesh;
     raster::TessellatedObjects objects;
+    VertexRuns runs;
     raster::VirtualObjectPass pass;
     std::unique_ptr<VirtualObjectSolver> solver;
     Solver finderOf = Solver::Refined;  ///< whose finder the solver was given
     std::vector<vec3> scenePoints;      ///< vertices mirrored by the planar links behind the curved one
     std::vector<vec3> virtualPositions, reflectionPoints;
     std::vector<VertexKind> kinds;
+    std::vector<std::uint8_t> mayReflect;  ///< by run
   };
   void drawObjects(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
                    raster::Level& target);

@@ -38,7 +38,6 @@ constexpr double kLongestStep = 0.7;       // of the mesh's radius
 constexpr double kLongestMirroring = 0.5;  // of the distance eye - mirror: keeps Q' in front of the eye
 constexpr double kNearlySine = 0.05;       // a root this near is good enough to place a doubly virtual vertex
 constexpr double kOutsideTriangle = 1e-6;  // barycentric slack
-constexpr std::size_t kChunk = 1024;
 
 bool isFinite(const dvec3& p) {
   return std::isfinite(p.x + p.y + p.z);
@@ -69,6 +68,7 @@ void VirtualObjectSolver::setEye(const dvec3& eye) {
   if (mesh_->triangles().empty() || !isFinite(eye)) return;
   canReflect_ = computeReflectedRays(*mesh_, eye, rays_) > 0;
   if (!canReflect_) return;
+  cone_ = makeReflectedCone(*mesh_, rays_);
   const double nearRadius = kNearSphere * mesh_->radius();
   const double farRadius = std::max(farRadius_, 2.0 * nearRadius);
   // Weights from relative distances d_near = (rho - r_n) / r_n, d_far = (r_f - rho) / r_f: linear in 1 / rho.
@@ -248,17 +248,22 @@ std::optional<ReflectionPoint> VirtualObjectSolver::findReflectionPoint(Solver s
 
 void VirtualObjectSolver::compute(Solver solver, std::span<const vec3> scenePoints,
                                   std::span<vec3> virtualPositions, std::span<VertexKind> kinds,
-                                  std::span<vec3> reflectionPoints) const {
+                                  std::span<vec3> reflectionPoints,
+                                  std::span<const std::uint8_t> mayReflect) const {
   assert(virtualPositions.size() == scenePoints.size() && kinds.size() == scenePoints.size());
   assert(reflectionPoints.empty() || reflectionPoints.size() == scenePoints.size());
-  // Chunks at fixed places: a vertex starts from its predecessor, and the result must not depend on the
+  // Runs at fixed places: a vertex starts from its predecessor, and the result must not depend on the
   // threads.
   const VertexSink sink{scenePoints, virtualPositions, kinds, reflectionPoints};
-  const std::size_t chunks = (scenePoints.size() + kChunk - 1) / kChunk;
-  core::parallelFor(chunks, 1, [&](std::size_t firstChunk, std::size_t endChunk) {
-    for (std::size_t chunk = firstChunk; chunk < endChunk; ++chunk) {
-      const std::size_t begin = chunk * kChunk, end = std::min(begin + kChunk, scenePoints.size());
-      if (solver != Solver::Refined || !canReflect_)
+  const std::size_t runs = (scenePoints.size() + kRunLength - 1) / kRunLength;
+  assert(mayReflect.empty() || mayReflect.size() == runs);
+  core::parallelFor(runs, 1, [&](std::size_t firstRun, std::size_t endRun) {
+    for (std::size_t run = firstRun; run < endRun; ++run) {
+      const std::size_t begin = run * kRunLength, end = std::min(begin + kRunLength, scenePoints.size());
+      if (!mayReflect.empty() && mayReflect[run] == 0)
+        std::fill(kinds.begin() + std::ptrdiff_t(begin), kinds.begin() + std::ptrdiff_t(end),
+                  VertexKind::None);
+      else if (solver != Solver::Refined || !canReflect_)
         for (std::size_t i = begin; i < end; ++i) sink.write(i, solve(solver, dvec3(scenePoints[i])));
       else if (mesh_->isConvex())  // one root only: a vertex may start from its predecessor
         computeInLanes(sink, begin, end);

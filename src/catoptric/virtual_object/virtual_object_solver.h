@@ -26,6 +26,7 @@
 #include "catoptric/virtual_object/explosion_map.h"
 #include "catoptric/virtual_object/mirror_law_lanes.h"
 #include "catoptric/virtual_object/point_finder.h"
+#include "catoptric/virtual_object/reflected_cone.h"
 #include "catoptric/virtual_object/reflection_point.h"
 #include "catoptric/virtual_object/reflector_mesh.h"
 
@@ -102,11 +103,16 @@ class VirtualObjectSolver {
   void useFinder(std::unique_ptr<PointFinder> finder);
   [[nodiscard]] bool hasFinder() const { return finder_ != nullptr; }
 
+  /// Vertices are solved in runs of this length, each by itself.
+  static constexpr std::size_t kRunLength = 256;
+
   /// All spans have equal length, except that `reflectionPoints` (J, wanted by selectVirtualTriangles()) may
   /// be empty. Parallel, and for convex mirrors in the processor's vectors; the result does not depend on the
-  /// number of threads. Positions of None are left as Q.
+  /// number of threads. Positions of None are left as Q. Runs with a 0 in `mayReflect` (findReflectedRuns();
+  /// empty for all ones) become None, their positions are not touched.
   void compute(Solver solver, std::span<const vec3> scenePoints, std::span<vec3> virtualPositions,
-               std::span<VertexKind> kinds, std::span<vec3> reflectionPoints = {}) const;
+               std::span<VertexKind> kinds, std::span<vec3> reflectionPoints = {},
+               std::span<const std::uint8_t> mayReflect = {}) const;
 
   /// One point, for tests and picking; nothing when the kind would be None.
   [[nodiscard]] std::optional<ReflectionPoint> findReflectionPoint(Solver solver,
@@ -114,6 +120,9 @@ class VirtualObjectSolver {
 
   /// False when the eye cannot see any front of the mirror: everything is None, skip the reflector.
   [[nodiscard]] bool canReflect() const { return canReflect_; }
+
+  /// Holds every ray that leaves the mirror; of use where canReflect().
+  [[nodiscard]] const ReflectedCone& reflectedCone() const { return cone_; }
 
   [[nodiscard]] const ReflectorMesh& mesh() const { return *mesh_; }
   [[nodiscard]] const dvec3& eye() const { return eye_; }
@@ -152,6 +161,7 @@ class VirtualObjectSolver {
   ExplosionMap nearMap_, farMap_;
   HiddenMap hiddenMap_;
   SeedMap seedMap_;
+  ReflectedCone cone_;
   ReflectedRays rays_;
   std::vector<LaneTriangle> laneTriangles_;
   LaneView laneView_;

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "catoptric/virtual_object/reflected_cone.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::virtual_object {
+namespace {
+
+double angleBetween(const dvec3& a, const dvec3& b) {
+  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+}  // namespace
+
+bool ReflectedCone::mayMeet(const dvec3& ballCentre, double ballRadius) const {
+  const dvec3 offset = ballCentre - centre;
+  const double distance = glm::length(offset), both = radius + ballRadius;
+  if (!(distance > both)) return true;
+  return !(angleBetween(offset, axis) > halfAngleRadians + std::asin(both / distance));
+}
+
+ReflectedCone makeReflectedCone(const ReflectorMesh& mesh, const ReflectedRays& rays) {
+  ReflectedCone cone;
+  cone.centre = mesh.centre();
+  cone.radius = mesh.bodyRadius();
+  dvec3 sum(0);
+  for (std::size_t t = 0; t < mesh.ordinaryCount(); ++t)
+    if (rays.isMapped[t])
+      for (std::size_t k = 0; k < 3; ++k) sum += rays.directions[mesh.corners()[3 * t + k]];
+  if (!(glm::length(sum) > 0)) {
+    cone.halfAngleRadians = glm::pi<double>();
+    return cone;
+  }
+  cone.axis = glm::normalize(sum);
+  // Within a triangle normals are interpolated: its rays stay between those of the corners, but for terms of
+  // the second order.
+  constexpr double kBetween = 0.25, kLeast = 1e-3;
+  double widest = 0, largest = 0;
+  for (std::size_t t = 0; t < mesh.ordinaryCount(); ++t) {
+    if (!rays.isMapped[t]) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const dvec3& direction = rays.directions[mesh.corners()[3 * t + k]];
+      const dvec3& next = rays.directions[mesh.corners()[3 * t + (k + 1) % 3]];
+      widest = std::max(widest, angleBetween(direction, cone.axis));
+      largest = std::max(largest, angleBetween(direction, next));
+    }
+  }
+  cone.halfAngleRadians = widest + kBetween * largest + kLeast;
+  return cone;
+}
+
+VertexRuns::VertexRuns(const raster::TessellatedObjects& objects, std::size_t runLength) {
+  std::vector<core::Box> boxes((objects.positions.size() + runLength - 1) / runLength);
+  for (std::size_t i = 0; i + 2 < objects.indices.size(); i += 3) {
+    core::Box triangle;
+    for (std::size_t k = 0; k < 3; ++k) triangle.add(dvec3(objects.positions[objects.indices[i + k]]));
+    for (std::size_t k = 0; k < 3; ++k) boxes[objects.indices[i + k] / runLength].add(triangle);
+  }
+  for (const core::Box& box : boxes)
+    balls_.push_back(box.isEmpty() ? Ball{} : Ball{box.centre(), box.radius()});
+}
+
+void findReflectedRuns(const VertexRuns& runs, const ReflectedCone& cone, const dmat4& coneFromWorld,
+                       std::vector<std::uint8_t>& mayReflect) {
+  mayReflect.clear();
+  for (const VertexRuns::Ball& ball : runs.balls()) {
+    const dvec3 centre(coneFromWorld * dvec4(ball.centre, 1.0));
+    mayReflect.push_back(ball.radius >= 0 && cone.mayMeet(centre, ball.radius));
+  }
+}
+
+}  // namespace catoptric::virtual_object

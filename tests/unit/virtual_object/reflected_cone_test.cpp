@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// Culling of what a mirror cannot reflect: nothing is lost. The twin has a cone that is too narrow, and must
+// lose some.
+#include "catoptric/virtual_object/reflected_cone.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "catoptric/geometry/shapes.h"
+#include "catoptric/virtual_object/virtual_object_solver.h"
+#include "reflection_harness.h"
+#include "solver_test_support.h"
+
+namespace catoptric::virtual_object {
+namespace {
+
+/// A cap of a ball around the origin that bulges towards +z, as a wing mirror does; `sign` -1: hollow.
+geometry::Mesh makeCap(double radius, double halfWidth, float sign) {
+  geometry::Mesh mesh = geometry::makePlane(2 * halfWidth, 2 * halfWidth, 12, 12);
+  for (vec3& p : mesh.positions)
+    p = vec3(p.x, -p.z, sign * std::sqrt(float(radius * radius) - p.x * p.x - p.z * p.z));
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+    mesh.normals[i] = sign * glm::normalize(mesh.positions[i]);
+  return mesh;
+}
+
+struct Counts {
+  int reflected = 0, lost = 0, culled = 0;
+};
+
+/// Random points all around; `narrow` scales the cone.
+Counts countLost(const ReflectorMesh& mesh, const dvec3& eye, double narrow) {
+  const VirtualObjectSolver solver(mesh, eye, 20);
+  ReflectedCone cone = solver.reflectedCone();
+  cone.halfAngleRadians *= narrow;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> logDistance(std::log(1.5), std::log(15.0));
+  Counts counts;
+  for (int i = 0; i < 4000; ++i) {
+    const dvec3 point = mesh.centre() + randomDirection(random) * std::exp(logDistance(random));
+    const auto found = solver.findReflectionPoint(Solver::Refined, point);
+    const bool isReflected = found && found->kind == VertexKind::Reflected;
+    const bool isKept = cone.mayMeet(point, 0);
+    counts.reflected += isReflected;
+    counts.lost += isReflected && !isKept;
+    counts.culled += !isKept;
+  }
+  return counts;
+}
+
+TEST(ReflectedCone, HoldsEveryReflectedPoint) {
+  for (const dvec3& eye : {dvec3(0.5, 0.2, 4), dvec3(-2, 1, 2.5)}) {
+    const Counts convex = countLost(meshOf(makeCap(2, 0.4, 1)), eye, 1);
+    EXPECT_EQ(convex.lost, 0);
+    EXPECT_GT(convex.reflected, 100);
+    EXPECT_GT(convex.culled, 1000);
+    EXPECT_GT(countLost(meshOf(makeCap(2, 0.4, 1)), eye, 0.5).lost, 0);
+  }
+  const Counts hollow = countLost(meshOf(makeCap(8, 1.2, -1)), dvec3(0.5, 0.2, -4), 1);
+  EXPECT_EQ(hollow.lost, 0);
+  EXPECT_GT(hollow.reflected, 20);
+}
+
+TEST(ReflectedCone, ABallReflectsAllButItsShadow) {
+  const Counts ball = countLost(meshOf(geometry::makeIcosphere(0.5, 12)), dvec3(0, 0, 3), 1);
+  EXPECT_EQ(ball.lost, 0);
+  EXPECT_LT(ball.culled, 100);
+}
+
+TEST(VertexRuns, BallsHoldTheTrianglesThatTouchThem) {
+  test::TestWorld world(makeCap(2, 0.4, 1));
+  world.add(geometry::makeQuad({-9, -1, 9}, {9, -1, 9}, {9, -1, -9}, {-9, -1, -9}), true);
+  const raster::TessellatedObjects objects = raster::tessellateForReflector(world.geometry(), 0);
+  constexpr std::size_t kLength = 64;
+  const VertexRuns runs(objects, kLength);
+  ASSERT_GT(runs.balls().size(), 4u);
+  double radii = 0;
+  for (std::size_t i = 0; i < objects.indices.size(); ++i) {
+    const VertexRuns::Ball& ball = runs.balls()[objects.indices[i] / kLength];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const dvec3 corner(objects.positions[objects.indices[i - i % 3 + k]]);
+      EXPECT_LE(glm::length(corner - ball.centre), ball.radius * 1.000001);
+    }
+  }
+  for (const VertexRuns::Ball& ball : runs.balls()) radii += ball.radius;
+  EXPECT_LT(radii / double(runs.balls().size()),
+            4);  // of 12.7 for all: neighbours in the array are neighbours in space
+}
+
+TEST(VertexRuns, LeftOutRunsChangeNoOther) {
+  const ReflectorMesh mesh = meshOf(makeCap(2, 0.4, 1));
+  const VirtualObjectSolver solver(mesh, dvec3(0.5, 0.2, 4), 20);
+  std::mt19937 random(5);
+  constexpr std::size_t kRun = VirtualObjectSolver::kRunLength;
+  std::vector<vec3> points(3 * kRun + 17);
+  for (vec3& p : points) p = vec3(mesh.centre() + 5.0 * randomDirection(random));
+  std::vector<vec3> all(points.size()), some(points.size());
+  std::vector<VertexKind> allKinds(points.size()), someKinds(points.size());
+  solver.compute(Solver::Refined, points, all, allKinds);
+  const std::vector<std::uint8_t> mayReflect{1, 0, 1, 0};
+  solver.compute(Solver::Refined, points, some, someKinds, {}, mayReflect);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool isIn = mayReflect[i / kRun] != 0;
+    EXPECT_EQ(someKinds[i], isIn ? allKinds[i] : VertexKind::None);
+    if (isIn) {
+      EXPECT_EQ(some[i], all[i]);
+    }
+  }
+}
+
+TEST(Tessellation, SizeFollowsTheMirrorOnTheScreen) {
+  scene::Reflector mirror;
+  mirror.radius = 0.5;
+  scene::CameraFrame camera;
+  camera.heightPx = 1000;
+  camera.tanHalfFovY = 0.5;  // 1000 pixels a radian: diameter 1000 / distance
+  EXPECT_EQ(raster::findTessellationSize(mirror, {0, 0, 100}, camera), 175);
+  EXPECT_EQ(raster::findTessellationSize(mirror, {0, 0, 3}, camera), 350);
+  EXPECT_EQ(raster::findTessellationSize(mirror, {0, 0, 1}, camera), 1400);
+  EXPECT_EQ(raster::findTessellationSize(mirror, {0, 0, 0}, camera), 2800);
+}
+
+}  // namespace
+}  // namespace catoptric::virtual_object
