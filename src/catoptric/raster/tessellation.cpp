@@ -5,20 +5,17 @@
 //   sample
 //      less the radius that a sample stands for. Focal length c from the median curvature of the normals.
 //   2. k from the error bound in pixels. An edge of angular length phi (seen from the mirror) that is drawn
-//   straight
-//      misses its image by the sag of that image, about phi^2 / 8 times its radius of curvature on the
-//      screen, and by as much again along itself, because depth in the virtual object is path length and not
-//      the depth that would make perspective interpolation exact. Both grow with the diameter D that a ball
-//      as curved as the mirror has on the screen, 4 c times the pixels of a unit of length:
-//          error_px = kSagFactor D_px phi^2,    phi = L / (d + c)  <=  k = sqrt(maxErrorPx / (kSagFactor
-//          D_px)).
+//      straight misses its image by the sag of that image, about phi^2 / 8 times its radius of curvature on
+//      the screen, and by as much again along itself, because depth in the virtual object is path length and
+//      not the depth that would make perspective interpolation exact. Both grow with the diameter D that a
+//      ball as curved as the mirror has on the screen, 4 c times the pixels of a unit of length:
+//          error_px = kSagFactor D_px phi^2,   phi = L / (d + c) <= k = sqrt(maxErrorPx / (kSagFactor D_px)).
 //      What lies behind a mirror that turns all the way round appears in a thin ring at its rim, where long
-//      edges bend by more than the ring is wide; D counts kRimFactor times there. kSagFactor is fitted to the
-//      worst 2 % of pixels of the test scenes (tests/unit/virtual_object).
+//      edges bend by more than the ring is wide, however small the mirror is: D is kLeastTurnedPx at least
+//      there. kSagFactor is fitted to the worst 2 % of pixels of the test scenes (tests/unit/virtual_object).
 //   3. Every triangle by itself: mark edges with L > k (d + c), d = (d_a + d_b - L) / 2, the least that the
-//   edge's
-//      points can be away from the reflector; split in two, three or four; repeat on the pieces. New vertices
-//      are shared within a part through a table of edges.
+//      edge's points can be away from the reflector; split in two, three or four; repeat on the pieces. New
+//      vertices are shared within a part through a table of edges.
 //      Pieces with all corners behind every tangent plane of the mirror are left out: nothing reflects them.
 //   4. More triangles than the budget: start again with k a third larger.
 //
@@ -41,7 +38,7 @@ namespace catoptric::raster {
 namespace {
 
 constexpr double kSagFactor = 0.06;
-constexpr double kRimFactor = 2;
+constexpr double kLeastTurnedPx = 700;
 constexpr double kBudgetStep = 1.35;
 
 /// Open addressing from an edge to the vertex at its middle.
@@ -301,8 +298,8 @@ TessellatedObjects tessellateForReflector(const scene::WorldGeometry& geometry, 
   const ReflectorDistance distance(geometry, geometry.parts[own], geometry.reflectors[reflector].doubleSided);
   const double pixelsPerUnit =
       options.reflectorDiameterPx / (2.0 * std::max(geometry.reflectors[reflector].radius, 1e-30));
-  const double rim = distance.turnsRound() ? kRimFactor : 1.0;
-  const double diameterPx = std::max(rim * 4.0 * double(distance.focalLength()) * pixelsPerUnit, 1.0);
+  const double leastPx = distance.turnsRound() ? kLeastTurnedPx : 1.0;
+  const double diameterPx = std::max(4.0 * double(distance.focalLength()) * pixelsPerUnit, leastPx);
   double k = std::sqrt(std::max(options.maxErrorPx, 1e-3) / (kSagFactor * diameterPx));
   k = std::min(k, 0.5);
   const double asked = k;
