@@ -66,6 +66,9 @@ Json describeScene(const LoadedScene& loaded) {
     json["bounds"] = {{"lower", makeJson(geometry.bounds.lower)}, {"upper", makeJson(geometry.bounds.upper)}};
   json["cameras"] = Json::array();
   for (const scene::Camera& camera : scene.cameras) json["cameras"].push_back(makeJson(camera));
+  json["animations"] = Json::array();
+  for (const scene::Animation& animation : scene.motion.animations)
+    json["animations"].push_back({{"name", animation.name}, {"duration_s", animation.durationS}});
   json["reflectors"] = Json::array();
   for (const scene::Reflector& reflector : geometry.reflectors)
     json["reflectors"].push_back(describeReflector(loaded, reflector));
@@ -95,6 +98,10 @@ std::string makeSummary(const LoadedScene& loaded) {
     text += fmt::format("  camera {} \"{}\", {:.1f} degrees\n", i,
                         withoutControlCharacters(scene.cameras[i].name),
                         glm::degrees(scene.cameras[i].fovYRadians));
+  for (std::size_t i = 0; i < scene.motion.animations.size(); ++i)
+    text += fmt::format("  animation {} \"{}\", {:.4g} s\n", i,
+                        withoutControlCharacters(scene.motion.animations[i].name),
+                        scene.motion.animations[i].durationS);
   return text;
 }
 

@@ -32,6 +32,10 @@ class Motion(support.CommandTest):
         super().setUp()
         self.write("moving.gltf", json.dumps(make_moving()).encode())
 
+    def test_info_lists_them(self):
+        self.assertIn('animation 0 "slide", 2 s', self.succeed("info", "moving.gltf").stdout.decode())
+        self.assertEqual(self.json_of("info", "moving.gltf")["animations"], [{"name": "slide", "duration_s": 2}])
+
     def test_a_time_between_the_key_frames(self):
         self.succeed("render", "moving.gltf", "-o", "rest.png", *support.SMALL)
         self.succeed("render", "moving.gltf", "-o", "0.png", "--time", "0", *support.SMALL)

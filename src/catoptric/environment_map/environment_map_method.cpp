@@ -14,13 +14,23 @@ void EnvironmentMapMethod::setOptions(int sizeTexels, bool boxCorrected) {
   boxCorrected_ = boxCorrected;
 }
 
-void EnvironmentMapMethod::prepare(raster::FrameContext&) {
+void EnvironmentMapMethod::geometryChanged() {
   for (auto& [reflector, kept] : cubes_) kept.isFresh = false;
+}
+
+void EnvironmentMapMethod::makeRoom() {
+  constexpr std::size_t kMostBytes = std::size_t(2) << 30;
+  while (cubes_.size() > 1 && (cubes_.size() + 1) * cubes_.begin()->second.cube->bytes() > kMostBytes)
+    cubes_.erase(std::min_element(cubes_.begin(), cubes_.end(), [](const auto& a, const auto& b) {
+      return a.second.lastUse < b.second.lastUse;
+    }));
 }
 
 const raster::SceneCube& EnvironmentMapMethod::takeCube(raster::FrameContext& frame,
                                                         std::uint32_t reflector) {
+  if (!cubes_.contains(reflector)) makeRoom();
   Kept& kept = cubes_[reflector];
+  kept.lastUse = ++uses_;
   if (!kept.cube) kept.cube = std::make_unique<raster::SceneCube>(sizeTexels_);
   if (kept.isFresh) return *kept.cube;
   const scene::Reflector& mirror = frame.scene.geometry().reflectors[reflector];

@@ -17,8 +17,9 @@ class EnvironmentMapMethod : public raster::ReflectionMethod {
   [[nodiscard]] std::string_view name() const override { return "environment"; }
   [[nodiscard]] bool supports(const raster::Chain&) const override { return true; }
   void setOptions(int sizeTexels, bool boxCorrected);
-  /// Cubes are taken anew in every frame: something may have moved.
-  void prepare(raster::FrameContext& frame) override;
+  void prepare(raster::FrameContext&) override {}
+  /// Cubes are taken anew.
+  void geometryChanged() override;
   void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
               raster::Level& target) override;
 
@@ -26,15 +27,19 @@ class EnvironmentMapMethod : public raster::ReflectionMethod {
   struct Kept {
     std::unique_ptr<raster::SceneCube> cube;
     bool isFresh = false;
+    std::uint64_t lastUse = 0;
   };
   const raster::SceneCube& takeCube(raster::FrameContext& frame, std::uint32_t reflector);
+  /// Forgets the cubes not used for longest until another one may be made.
+  void makeRoom();
 
   gl::Program program_;
   gl::VertexArray nothing_;
   int sizeTexels_ = 512;
   bool boxCorrected_ = true;
   raster::SceneCubeCapture capture_;
-  std::map<std::uint32_t, Kept> cubes_;
+  std::map<std::uint32_t, Kept> cubes_;  ///< by reflector
+  std::uint64_t uses_ = 0;
 };
 
 /// The box of the room: bounds of the shell if it holds the point, else of the whole scene.
