@@ -50,8 +50,9 @@ ReflectedCone makeReflectedCone(const ReflectorMesh& mesh, const ReflectedRays& 
   return cone;
 }
 
-VertexRuns::VertexRuns(const raster::TessellatedObjects& objects, std::size_t runLength) {
-  std::vector<core::Box> boxes((objects.positions.size() + runLength - 1) / runLength);
+VertexRuns::VertexRuns(const raster::TessellatedObjects& objects, std::size_t runLength)
+    : vertices_(objects.positions.size()), runLength_(runLength) {
+  std::vector<core::Box> boxes((vertices_ + runLength - 1) / runLength);
   for (std::size_t i = 0; i + 2 < objects.indices.size(); i += 3) {
     core::Box triangle;
     for (std::size_t k = 0; k < 3; ++k) triangle.add(dvec3(objects.positions[objects.indices[i + k]]));
@@ -59,6 +60,13 @@ VertexRuns::VertexRuns(const raster::TessellatedObjects& objects, std::size_t ru
   }
   for (const core::Box& box : boxes)
     balls_.push_back(box.isEmpty() ? Ball{} : Ball{box.centre(), box.radius()});
+}
+
+std::size_t VertexRuns::countLeftOut(std::span<const std::uint8_t> mayReflect) const {
+  std::size_t count = 0;
+  for (std::size_t run = 0; run < mayReflect.size(); ++run)
+    if (mayReflect[run] == 0) count += std::min(runLength_, vertices_ - run * runLength_);
+  return count;
 }
 
 void findReflectedRuns(const VertexRuns& runs, const ReflectedCone& cone, const dmat4& coneFromWorld,

@@ -47,8 +47,11 @@ class VertexRuns {
     double radius = -1;
   };
   [[nodiscard]] std::span<const Ball> balls() const { return balls_; }
+  /// Vertices of the runs that have a 0 in `mayReflect`, which may be empty for all ones.
+  [[nodiscard]] std::size_t countLeftOut(std::span<const std::uint8_t> mayReflect) const;
 
  private:
+  std::size_t vertices_, runLength_;
   std::vector<Ball> balls_;
 };
 

@@ -75,18 +75,13 @@ void VirtualObjectMethod::computeVirtualVertices(raster::FrameContext& frame, co
     points = prepared.scenePoints;
   }
   const Solver solver = equipSolver(frame.scene.geometry(), *chain.curved, prepared);
-  // The method as published is left as it is.
   prepared.mayReflect.clear();
-  if (solver != Solver::Explosion && prepared.solver->canReflect())
+  if (solver != Solver::Explosion && prepared.solver->canReflect())  // the method as published has no culling
     findReflectedRuns(prepared.runs, prepared.solver->reflectedCone(), chain.drawFromWorld,
                       prepared.mayReflect);
   prepared.solver->compute(solver, points, prepared.virtualPositions, prepared.kinds,
                            prepared.reflectionPoints, prepared.mayReflect);
-  std::size_t culled = 0;
-  for (std::size_t run = 0; run < prepared.mayReflect.size(); ++run)
-    if (prepared.mayReflect[run] == 0)
-      culled +=
-          std::min(VirtualObjectSolver::kRunLength, points.size() - run * VirtualObjectSolver::kRunLength);
+  const std::size_t culled = prepared.runs.countLeftOut(prepared.mayReflect);
   const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
   frame.counters.virtualVertices += points.size() - culled;
   frame.counters.culledVertices += culled;

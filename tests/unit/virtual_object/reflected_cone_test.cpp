@@ -88,6 +88,14 @@ TEST(VertexRuns, BallsHoldTheTrianglesThatTouchThem) {
             4);  // of 12.7 for all: neighbours in the array are neighbours in space
 }
 
+TEST(VertexRuns, CountsWhatIsLeftOut) {
+  raster::TessellatedObjects objects;
+  objects.positions.resize(25);
+  const VertexRuns runs(objects, 10);
+  EXPECT_EQ(runs.countLeftOut({}), 0u);
+  EXPECT_EQ(runs.countLeftOut(std::vector<std::uint8_t>{1, 0, 0}), 15u);
+}
+
 TEST(VertexRuns, LeftOutRunsChangeNoOther) {
   const ReflectorMesh mesh = meshOf(makeCap(2, 0.4, 1));
   const VirtualObjectSolver solver(mesh, dvec3(0.5, 0.2, 4), 20);
