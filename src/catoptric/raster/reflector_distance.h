@@ -110,7 +110,7 @@ class ReflectorDistance {
 
   static constexpr std::size_t kSamples = 64;
   static constexpr double kFlattest = 8;
-  static constexpr float kTurned = 0.25f;  // length of the mean normal: 0 for a ball, a half for half of it
+  static constexpr float kTurned = 0.5f;  // length of the mean normal: 0 for a ball, a half for half of it
   static constexpr float kInTriangle = 0.3f;  // of the longest edge: farthest from both corners and centroid
 
   std::vector<float> x_, y_, z_;
