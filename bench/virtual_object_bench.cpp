@@ -109,14 +109,14 @@ void selectTriangles(benchmark::State& state) {
   b.solver.compute(Solver::Refined, b.objects.positions, b.positions, b.kinds, b.points);
   VirtualTriangles out;
   for (auto _ : state) selectVirtualTriangles(b.objects, b.eye, b.positions, b.kinds, b.points, out);
-  state.counters["triangles"] = double(b.objects.indices.size() / 3);
+  state.counters["triangles"] = double(b.objects.indices.size()) / 3;
 }
 BENCHMARK(selectTriangles)->ArgName("cylinder")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 void tessellation(benchmark::State& state) {
   Bench& b = getBench(state.range(0));
   for (auto _ : state) benchmark::DoNotOptimize(tessellateForReflector(b.world, 0));
-  state.counters["triangles"] = double(b.objects.indices.size() / 3);
+  state.counters["triangles"] = double(b.objects.indices.size()) / 3;
 }
 BENCHMARK(tessellation)->ArgName("cylinder")->Arg(0)->Arg(1)->UseRealTime()->Unit(benchmark::kMillisecond);
 

@@ -66,7 +66,7 @@ struct Size {
 };
 
 Size dataSize(const Imf::Header& header) {
-  const Imath::Box2i window = header.dataWindow();
+  const Imath::Box2i& window = header.dataWindow();
   return {std::int64_t(window.max.x) - window.min.x + 1, std::int64_t(window.max.y) - window.min.y + 1};
 }
 

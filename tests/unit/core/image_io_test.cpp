@@ -88,6 +88,7 @@ Bytes makeJpeg(int channels, bool progressive) {
   jpeg_start_compress(&info, TRUE);
   for (int y = 0; y < 30; ++y) {
     std::vector<unsigned char> row;
+    row.reserve(std::size_t(40) * std::size_t(channels));
     for (int x = 0; x < 40 * channels; ++x)
       row.push_back(static_cast<unsigned char>(3 * x / channels + 2 * y));
     JSAMPROW pointer = row.data();

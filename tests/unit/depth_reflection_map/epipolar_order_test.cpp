@@ -62,7 +62,8 @@ std::pair<int, int> countWrongPairs(const EpipolarOrder& order, const dvec3& e, 
       const dvec2 farther = epipole + 1.5 * offset;
       const int fx = int(std::floor(farther.x)), fy = int(std::floor(farther.y));
       if (fx < 0 || fy < 0 || fx >= kWidth || fy >= kHeight || (fx == x && fy == y)) continue;
-      const Place near = places[std::size_t(y * kWidth + x)], far = places[std::size_t(fy * kWidth + fx)];
+      const Place near = places[std::size_t(y) * kWidth + std::size_t(x)],
+                  far = places[std::size_t(fy) * kWidth + std::size_t(fx)];
       if (near.sheet != far.sheet) continue;
       ++pairs;
       const bool nearIsLater = near.rank > far.rank;

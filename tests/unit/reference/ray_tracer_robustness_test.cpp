@@ -20,9 +20,9 @@ TracedTestScene makeBusyScene() {
   floor.metallic = 0;
   floor.baseColorTexture.texture = 0;
   t.add(makeQuad({-9, -1, 9}, {18, 0, 0}, {0, 0, -18}, 4), floor, "floor");
-  for (int i = 0; i < 4; ++i)
-    t.add(makeBall(48, 24), makeMirror(), "ball",
-          glm::translate(dmat4(1), dvec3(2.2 * (i % 2) - 1.1, 0, 2.2 * (i / 2) - 1.1)));
+  for (const double x : {-1.1, 1.1})
+    for (const double z : {-1.1, 1.1})
+      t.add(makeBall(48, 24), makeMirror(), "ball", glm::translate(dmat4(1), dvec3(x, 0, z)));
   t.camera.eye = {1, 2, 7};
   t.finish();
   return t;

@@ -169,6 +169,7 @@ TEST(Morphing, insideACellAndContinuousAcrossItsSides) {
   const Cells cells(rays, {3, 2, 2}, 0.15, makeOptions(world));
   const auto known = makeKnownPoints(rays, kEye, {0}, 2000, 11);
   std::vector<vec3> points;
+  points.reserve(known.size());
   for (const KnownPoint& k : known) points.emplace_back(k.scenePoint);
   const auto cell = cells.grid.findCell(kEye);
   ASSERT_TRUE(cell);

@@ -165,6 +165,7 @@ struct Expected {
   std::size_t mostTriangles = 60000;
 };
 
+// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest asks for this name.
 void PrintTo(const Expected& expected, std::ostream* out) {
   *out << expected.name;
 }

@@ -62,7 +62,8 @@ TEST(GltfAccessor, SparseReplacesElementsOfABaseOrOfZeros) {
 }
 
 TEST(GltfAccessor, SparseAbuseIsRefused) {
-  const auto withSparse = [](std::vector<std::uint8_t> indices, std::size_t count, const Json& change) {
+  const auto withSparse = [](const std::vector<std::uint8_t>& indices, std::size_t count,
+                             const Json& change) {
     Document document;
     const int base = document.addFloats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
     document.addPrimitive({{"POSITION", base}});

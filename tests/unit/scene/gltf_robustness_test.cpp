@@ -103,6 +103,7 @@ std::vector<Json::json_pointer> collectPointers(const Json& value) {
   for (const auto& [pointer, leaf] : flat.items())
     for (Json::json_pointer p(pointer); !p.empty(); p.pop_back()) found.emplace(p.to_string(), p);
   std::vector<Json::json_pointer> out;
+  out.reserve(found.size());
   for (const auto& [text, pointer] : found) out.push_back(pointer);
   return out;
 }

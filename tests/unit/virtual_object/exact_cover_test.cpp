@@ -69,7 +69,8 @@ int countMissed(const RayImages& rays, const TriangleHierarchy& hierarchy, const
   std::vector<std::set<std::uint32_t>> offered(rays.origins.size());
   for (const CoverRect& r : cover.opaque)
     for (int y = r.y; y < r.y + r.height; ++y)
-      for (int x = r.x; x < r.x + r.width; ++x) offered[std::size_t(y * rays.widthPx + x)].insert(r.item);
+      for (int x = r.x; x < r.x + r.width; ++x)
+        offered[std::size_t(y) * std::size_t(rays.widthPx) + std::size_t(x)].insert(r.item);
   int missed = 0;
   hits = 0;
   for (std::size_t i = 0; i < rays.origins.size(); ++i) {
@@ -141,8 +142,8 @@ TEST(RayShaftTest, BoundsTheHeightsAtWhichItsRaysMeetATriangle) {
   std::vector<vec4> origins, directions;
   for (int y = 16; y < 32; ++y)
     for (int x = 20; x < 36; ++x) {
-      origins.push_back(rays.origins[std::size_t(y * kEdge + x)]);
-      directions.push_back(rays.directions[std::size_t(y * kEdge + x)]);
+      origins.push_back(rays.origins[std::size_t(y) * kEdge + std::size_t(x)]);
+      directions.push_back(rays.directions[std::size_t(y) * kEdge + std::size_t(x)]);
     }
   const auto shaft = RayShaft::find({origins, directions}, 30.0);
   ASSERT_TRUE(shaft);

@@ -56,6 +56,7 @@ std::vector<dvec3> randomPoints(int count, double nearest, double farthest, std:
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(0, 1);
   std::vector<dvec3> points;
+  points.reserve(std::size_t(count));
   for (int i = 0; i < count; ++i)
     points.push_back(randomDirection(random) * (nearest + (farthest - nearest) * uniform(random)));
   return points;

@@ -286,6 +286,7 @@ TEST(Skirt, continuesASphereAndACylinder) {
 TEST(Solver, theSameWhateverTheThreadsAndAfterAChangeOfEye) {
   const ReflectorMesh mesh = meshOf(geometry::makeIcosphere(0.5, 12));
   std::vector<vec3> points;
+  points.reserve(5000);
   std::mt19937 random(11);
   for (int i = 0; i < 5000; ++i) points.push_back(vec3(randomDirection(random) * (0.6 + 0.001 * i)));
   const auto run = [&](VirtualObjectSolver& solver) {

@@ -63,6 +63,7 @@ struct Side {
   bool isInside;
 };
 
+// NOLINTNEXTLINE(readability-identifier-naming): GoogleTest asks for this name.
 void PrintTo(const Side& side, std::ostream* out) {
   constexpr const char* kNames[] = {"plane", "sphere", "cylinder", "cone"};
   *out << kNames[int(side.shape)] << (side.isInside ? " inside" : " outside");
@@ -140,6 +141,7 @@ TEST_P(Special, NoReflectionIsMissed) {
     several += found.count > 1;
     const PathOver pathOver = makePathOver(shape, eye, point);
     std::vector<Path> paths;
+    paths.reserve(kSamples);
     for (int k = 0; k < kSamples; ++k) paths.push_back(pathOver(6.283185307179586 * k / kSamples));
     for (int k = 0; k < kSamples; ++k) {  // where the path is stationary by sampling (Fermat)
       const Path &before = paths[std::size_t((k + kSamples - 1) % kSamples)], &here = paths[std::size_t(k)],

@@ -29,7 +29,7 @@ constexpr std::size_t kMaxWarnings = 100;
 
 }  // namespace
 
-Context::Context(std::string name, const ImportOptions& options)
+Context::Context(std::string_view name, const ImportOptions& options)
     : name_(printable(name)), options_(options) {}
 
 void Context::fail(std::string_view code, const std::string& message, const std::string& pointer,

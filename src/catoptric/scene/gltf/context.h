@@ -33,7 +33,7 @@ enum class Repair {
 
 class Context {
  public:
-  Context(std::string name, const ImportOptions& options);
+  Context(std::string_view name, const ImportOptions& options);
 
   /// Throws core::Error with "name: message".
   [[noreturn]] void fail(std::string_view code, const std::string& message, const std::string& pointer = {},

@@ -137,7 +137,7 @@ fs::path resolveFileUri(Context& context, const fs::path& folder, const std::str
     failUri(context, uri, "cannot be resolved, the scene was not read from a folder", pointer);
   std::error_code error;
   const fs::path root = fs::canonical(folder, error);
-  const fs::path file = error ? fs::path() : fs::canonical(folder / relative, error);
+  fs::path file = error ? fs::path() : fs::canonical(folder / relative, error);
   if (error)
     context.fail(
         "gltf.file",
