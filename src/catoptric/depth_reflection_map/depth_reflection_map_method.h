@@ -27,7 +27,7 @@ class DepthReflectionMapMethod : public raster::ReflectionMethod {
   void geometryChanged() override {
     cache_.clear();
     windows_.clear();
-    inverse_.clear();
+    inverse_.geometryChanged();
   }
   void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
               raster::Level& target) override;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <string>
 
 namespace catoptric::depth_reflection_map {
@@ -45,35 +44,8 @@ std::vector<dvec3> makeCubeCentres(const scene::WorldGeometry& world, std::uint3
 InverseWarp::InverseWarp() : program_("raster/screen.vert", "depth_reflection_map/inverse_warp.frag") {}
 
 void InverseWarp::setOptions(const ZexelOptions& options) {
-  const int size = std::max(8, 3 * options.size / 4);
-  if (size != sizeTexels_) cubes_.clear();
-  sizeTexels_ = size;
+  cubes_.setLimits(std::max(8, 3 * options.size / 4), options.maxBytes);
   references_ = options.references;
-  maxBytes_ = options.maxBytes;
-}
-
-void InverseWarp::evict() {
-  while (cubes_.size() > 2 && cubes_.size() * cubes_.begin()->second.cube->bytes() > maxBytes_)
-    cubes_.erase(std::min_element(cubes_.begin(), cubes_.end(), [](const auto& a, const auto& b) {
-      return a.second.lastUse < b.second.lastUse;
-    }));
-}
-
-const raster::SceneCube& InverseWarp::takeCube(raster::FrameContext& frame, std::uint32_t reflector,
-                                               int index, const dvec3& centre) {
-  Kept& kept = cubes_[{reflector, index}];
-  kept.lastUse = ++now_;
-  if (kept.cube && kept.cube->centre == centre) return *kept.cube;
-  const auto start = std::chrono::steady_clock::now();
-  if (!kept.cube) kept.cube = std::make_unique<raster::SceneCube>(sizeTexels_);
-  raster::SceneCube& cube = *kept.cube;
-  const double radius = frame.scene.geometry().reflectors[reflector].radius;
-  capture_.draw(frame, centre, 1e-3 * std::max(radius, 1e-3), reflector, cube);
-  const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
-  frame.counters.captureMs += spent.count();
-  ++frame.counters.zexelCaptures;
-  evict();
-  return cube;
 }
 
 void InverseWarp::render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
@@ -87,9 +59,11 @@ void InverseWarp::render(raster::FrameContext& frame, const raster::Chain& chain
         glm::length(centres[std::size_t(i)] - eye) < glm::length(centres[std::size_t(second)] - eye))
       second = i;
   const int count = second > 0 ? references_ : 1;
+  const std::uint64_t captures = cubes_.captures();
   std::array<const raster::SceneCube*, 2> cubes{};
-  cubes[0] = &takeCube(frame, chain.last, 0, centres[0]);
-  cubes[1] = count > 1 ? &takeCube(frame, chain.last, second, centres[std::size_t(second)]) : cubes[0];
+  cubes[0] = &cubes_.take(frame, {chain.last, 0}, centres[0]);
+  cubes[1] = count > 1 ? &cubes_.take(frame, {chain.last, second}, centres[std::size_t(second)]) : cubes[0];
+  frame.counters.zexelCaptures += cubes_.captures() - captures;
 
   // 3
   target.surfaces.bind();
@@ -99,7 +73,7 @@ void InverseWarp::render(raster::FrameContext& frame, const raster::Chain& chain
   parent.bindAsParent(program_);
   program_.set("u_parentWord", chain.parentWord());
   program_.set("u_chain", chain.id);
-  program_.set("u_step", kTexelsPerStep * 1.5707963f / float(sizeTexels_));
+  program_.set("u_step", kTexelsPerStep * 1.5707963f / float(cubes_.sizeTexels()));
   program_.set("u_cubeCount", count);
   int unit = raster::kUnitFirstFree + 4;
   for (std::size_t i = 0; i < cubes.size(); ++i) {

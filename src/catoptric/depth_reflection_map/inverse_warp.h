@@ -35,26 +35,15 @@ class InverseWarp {
  public:
   InverseWarp();
   void setOptions(const ZexelOptions& options);
-  void clear() { cubes_.clear(); }
+  void geometryChanged() { cubes_.geometryChanged(); }
   void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
               const raster::Level& target);
 
  private:
-  struct Kept {
-    std::unique_ptr<raster::SceneCube> cube;
-    std::uint64_t lastUse = 0;
-  };
-  const raster::SceneCube& takeCube(raster::FrameContext& frame, std::uint32_t reflector, int index,
-                                    const dvec3& centre);
-  void evict();
-
   gl::Program program_;
   gl::VertexArray nothing_;
-  raster::SceneCubeCapture capture_;
-  std::map<std::pair<std::uint32_t, int>, Kept> cubes_;  ///< reflector, centre
-  std::uint64_t now_ = 0;
-  int sizeTexels_ = 384, references_ = 2;
-  std::size_t maxBytes_ = 0;
+  raster::SceneCubeCache cubes_;
+  int references_ = 2;
 };
 
 }  // namespace catoptric::depth_reflection_map

@@ -1,48 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "catoptric/environment_map/environment_map_method.h"
 
-#include <algorithm>
-
 namespace catoptric::environment_map {
 
 EnvironmentMapMethod::EnvironmentMapMethod()
     : program_("raster/screen.vert", "environment_map/environment_map.frag") {}
 
 void EnvironmentMapMethod::setOptions(int sizeTexels, bool boxCorrected) {
-  if (sizeTexels != sizeTexels_) cubes_.clear();
-  sizeTexels_ = sizeTexels;
-  boxCorrected_ = boxCorrected;
-}
-
-void EnvironmentMapMethod::geometryChanged() {
-  for (auto& [reflector, kept] : cubes_) kept.isFresh = false;
-}
-
-void EnvironmentMapMethod::makeRoom() {
   constexpr std::size_t kMostBytes = std::size_t(2) << 30;
-  while (cubes_.size() > 1 && (cubes_.size() + 1) * cubes_.begin()->second.cube->bytes() > kMostBytes)
-    cubes_.erase(std::min_element(cubes_.begin(), cubes_.end(), [](const auto& a, const auto& b) {
-      return a.second.lastUse < b.second.lastUse;
-    }));
-}
-
-const raster::SceneCube& EnvironmentMapMethod::takeCube(raster::FrameContext& frame,
-                                                        std::uint32_t reflector) {
-  if (!cubes_.contains(reflector)) makeRoom();
-  Kept& kept = cubes_[reflector];
-  kept.lastUse = ++uses_;
-  if (!kept.cube) kept.cube = std::make_unique<raster::SceneCube>(sizeTexels_);
-  if (kept.isFresh) return *kept.cube;
-  const scene::Reflector& mirror = frame.scene.geometry().reflectors[reflector];
-  capture_.draw(frame, mirror.centre, 1e-3 * std::max(mirror.radius, 1e-3), reflector, *kept.cube);
-  kept.isFresh = true;
-  return *kept.cube;
+  cubes_.setLimits(sizeTexels, kMostBytes);
+  boxCorrected_ = boxCorrected;
 }
 
 void EnvironmentMapMethod::render(raster::FrameContext& frame, const raster::Chain& chain,
                                   const raster::Level& parent, raster::Level& target) {
-  const raster::SceneCube& cube = takeCube(frame, chain.last);
   const dvec3 centre = frame.scene.geometry().reflectors[chain.last].centre;
+  const raster::SceneCube& cube = cubes_.take(frame, {chain.last, 0}, centre);
   const core::Box box = findRoomBox(frame.scene.geometry(), centre);
   target.surfaces.bind();
   gl::setScissor(chain.bounds);

@@ -4,9 +4,6 @@
 // everyone has.
 #pragma once
 
-#include <map>
-#include <memory>
-
 #include "catoptric/raster/scene_cube.h"
 
 namespace catoptric::environment_map {
@@ -18,28 +15,15 @@ class EnvironmentMapMethod : public raster::ReflectionMethod {
   [[nodiscard]] bool supports(const raster::Chain&) const override { return true; }
   void setOptions(int sizeTexels, bool boxCorrected);
   void prepare(raster::FrameContext&) override {}
-  /// Cubes are taken anew.
-  void geometryChanged() override;
+  void geometryChanged() override { cubes_.geometryChanged(); }
   void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
               raster::Level& target) override;
 
  private:
-  struct Kept {
-    std::unique_ptr<raster::SceneCube> cube;
-    bool isFresh = false;
-    std::uint64_t lastUse = 0;
-  };
-  const raster::SceneCube& takeCube(raster::FrameContext& frame, std::uint32_t reflector);
-  /// Forgets the cubes not used for longest until another one may be made.
-  void makeRoom();
-
   gl::Program program_;
   gl::VertexArray nothing_;
-  int sizeTexels_ = 512;
   bool boxCorrected_ = true;
-  raster::SceneCubeCapture capture_;
-  std::map<std::uint32_t, Kept> cubes_;  ///< by reflector
-  std::uint64_t uses_ = 0;
+  raster::SceneCubeCache cubes_;
 };
 
 /// The box of the room: bounds of the shell if it holds the point, else of the whole scene.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "catoptric/raster/scene_cube.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <chrono>
 
 namespace catoptric::raster {
 namespace {
@@ -57,6 +59,39 @@ void SceneCubeCapture::draw(FrameContext& frame, const dvec3& centre, double nea
     face_->composed.copyToCubeFace(2, cube.ids, i);
   }
   cube.color.generateMipmaps();
+}
+
+void SceneCubeCache::setLimits(int sizeTexels, std::size_t maxBytes) {
+  if (sizeTexels != sizeTexels_) cubes_.clear();
+  sizeTexels_ = sizeTexels;
+  maxBytes_ = maxBytes;
+}
+
+void SceneCubeCache::geometryChanged() {
+  for (auto& [key, kept] : cubes_) kept.isFresh = false;
+}
+
+void SceneCubeCache::makeRoom() {
+  while (cubes_.size() > 1 && (cubes_.size() + 1) * cubes_.begin()->second.cube->bytes() > maxBytes_)
+    cubes_.erase(std::min_element(cubes_.begin(), cubes_.end(), [](const auto& a, const auto& b) {
+      return a.second.lastUse < b.second.lastUse;
+    }));
+}
+
+const SceneCube& SceneCubeCache::take(FrameContext& frame, const Key& key, const dvec3& centre) {
+  if (!cubes_.contains(key)) makeRoom();
+  Kept& kept = cubes_[key];
+  kept.lastUse = ++uses_;
+  if (kept.isFresh && kept.cube->centre == centre) return *kept.cube;
+  const auto start = std::chrono::steady_clock::now();
+  if (!kept.cube) kept.cube = std::make_unique<SceneCube>(sizeTexels_);
+  const double nearPlane = 1e-3 * std::max(frame.scene.geometry().reflectors[key.first].radius, 1e-3);
+  capture_.draw(frame, centre, nearPlane, key.first, *kept.cube);
+  kept.isFresh = true;
+  ++captures_;
+  const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+  frame.counters.captureMs += spent.count();
+  return *kept.cube;
 }
 
 }  // namespace catoptric::raster
