@@ -34,6 +34,7 @@ Json describeReflector(const LoadedScene& loaded, const scene::Reflector& reflec
           {"fit_error", reflector.fitError},
           {"convex", reflector.isConvex},
           {"double_sided", reflector.doubleSided},
+          {"ior", reflector.isRefractor() ? Json(reflector.ior) : Json()},
           {"triangles", loaded.geometry.parts.at(reflector.part).indexCount / 3},
           {"centre", makeJson(reflector.centre)},
           {"radius", reflector.radius},
@@ -120,9 +121,10 @@ std::string makeReflectorTable(const LoadedScene& loaded) {
                     fmt::format("{:.4g}", reflector.radius), fmt::format("{:.4g}", reflector.areaWorld),
                     std::to_string(loaded.geometry.parts.at(reflector.part).indexCount / 3),
                     methodText(choice)});
-    reasons += fmt::format("{}: a mirror by {}; {} because {}\n", withoutControlCharacters(reflector.name),
-                           reflector.reason, methodText(choice), choice.reason);
-    if (reflector.shape == scene::ReflectorShape::Plane) continue;
+    reasons += fmt::format("{}: a {} by {}; {} because {}\n", withoutControlCharacters(reflector.name),
+                           reflector.isRefractor() ? "refractor" : "mirror", reflector.reason,
+                           methodText(choice), choice.reason);
+    if (reflector.shape == scene::ReflectorShape::Plane || reflector.isRefractor()) continue;
     reasons += choice.analytic.empty()
                    ? fmt::format("  solver analytic: the {} that its vertices leave by at most {:.2g} m\n",
                                  scene::shapeName(reflector.shape), reflector.fitError)

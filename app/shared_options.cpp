@@ -115,7 +115,9 @@ void declarePicture(Arguments& arguments, PictureOptions& options) {
     frame.widthPx = size.x;
     frame.heightPx = size.y;
   });
-  arguments.option("--bounces", "N", "Mirrors in mirrors, to this depth; default 1",
+  arguments.option("--bounces", "N",
+                   "Mirrors in mirrors, to this depth; default 1. Light goes through up to 6 surfaces of "
+                   "glass besides",
                    setInteger("--bounces", frame.bounces, 0, kMostBounces));
   arguments.option("--samples", "N", "Samples a pixel; default 1",
                    setInteger("--samples", frame.samples, 1, kMostSamples));

@@ -17,6 +17,8 @@ struct Surface {
   float f0Dielectric;
   float reflectivity;  // weight of the mirror lobe of a reflector; 0 for everything that is no reflector
   float clearcoat;     // weight of a clearcoat mirror lobe of a reflector
+  float transmission;  // share of the light that a refractor lets through
+  float eta;           // a refractor's index on the viewer's side over that on the other side; 0 = no refractor
 };
 
 /// KHR_lights_punctual. kind: 0 directional, 1 point, 2 spot.
@@ -77,7 +79,7 @@ CATOPTRIC_FN vec3 shadeLight(PunctualLight light, Surface s) {
   vec3 toLight = light.kind == 0 ? -light.direction : offset / distanceToLight;
   vec3 irradiance = lightIrradiance(light, s, toLight, distanceToLight);
   vec3 f0 = surfaceF0(s);
-  vec3 diffuseColor = s.baseColor * (1.0f - s.metallic);
+  vec3 diffuseColor = s.baseColor * ((1.0f - s.metallic) * (s.eta > 0.0f ? 1.0f - s.transmission : 1.0f));
   vec3 halfway = normalize(toLight + s.toViewer);
   float nl = max(dot(s.normal, toLight), 1.0e-4f);
   float nv = max(dot(s.normal, s.toViewer), 1.0e-4f);
@@ -111,15 +113,19 @@ CATOPTRIC_FN vec3 shadeAmbient(Surface s, vec3 irradiance, vec3 prefiltered) {
   float cosTheta = clamp(dot(s.normal, s.toViewer), 0.0f, 1.0f);
   vec2 scaleBias = environmentBrdf(s.roughness, cosTheta);
   vec3 specularWeight = f0 * scaleBias.x + vec3(scaleBias.y);
+  if (s.eta > 0.0f) specularWeight = fresnelSchlick(f0, cosTheta);  // what a refractor does not pass on
   float isReflector = s.reflectivity > 0.0f ? 1.0f : 0.0f;
-  vec3 diffuse = (vec3(1.0f) - specularWeight) * (s.baseColor * (1.0f - s.metallic)) * irradiance;
+  float opaque = s.eta > 0.0f ? 1.0f - s.transmission : 1.0f;
+  vec3 diffuse = (vec3(1.0f) - specularWeight) * (s.baseColor * ((1.0f - s.metallic) * opaque)) * irradiance;
   vec3 specular = specularWeight * prefiltered * (1.0f - isReflector);
   return (diffuse + specular) * s.occlusion;
 }
 
 /// Sum of it all. `direct` is the sum of shadeLight() over the lights. For a reflector with reflectivity below one
-/// the base shows through by the rest.
+/// the base shows through by the rest. From inside a refractor nothing but its own light is added: no lamp shines and no
+/// environment is mirrored in there.
 CATOPTRIC_FN vec3 shadeSurface(Surface s, vec3 direct, vec3 irradiance, vec3 prefiltered) {
+  if (s.eta > 1.0f) return s.emissive;
   vec3 base = direct + shadeAmbient(s, irradiance, prefiltered);
   vec3 coat = fresnelSchlick(vec3(0.04f), dot(s.normal, s.toViewer)) * s.clearcoat;
   base = base * (vec3(1.0f) - coat);

@@ -3,11 +3,14 @@
 //   radiance    rgb: radiance without the mirror lobe      a: octahedral x of the mirror direction
 //   position    rgb: world point                           a: length of the path from the eye
 //   weight      rgb: what part of the mirrored radiance    a: octahedral y of the mirror direction
-//   ids         r: (object + 1) | shell << 31              g: (reflector + 1) | chain << 16
+//   ids         r: (object + 1) | inside << 30 | shell << 31     g: (reflector + 1) | chain << 16
+// A refractor's pixels are mirror pixels whose "mirror direction" is the refracted one; `inside` says that the ray in that
+// direction goes through its solid.
 // For the sky `position` holds the unit direction and kSkyPath, ids.r is 0. Where no mirror is, weight and both halves of
 // the mirror direction say nothing, nor does position unless the level says what is seen.
 
 const float kSkyPath = 1.0e30f;
+const uint kInsideBit = 0x40000000u;
 
 vec2 octahedralFromDirection(vec3 d) {
   vec2 p = d.xy / (abs(d.x) + abs(d.y) + abs(d.z));

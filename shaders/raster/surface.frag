@@ -9,6 +9,7 @@
 
 #include "lib/brdf.glsl"
 #include "lib/environment.glsl"
+#include "lib/refraction.glsl"
 #include "lib/texture_lod.glsl"
 #include "raster/environment_lookup.glsl"
 #include "raster/level_pixels.glsl"
@@ -94,7 +95,7 @@ void main() {
   o_radiance = vec4(shaded.radiance, oct.x);
   o_position = vec4(v_position, path);
   o_weight = vec4(shaded.weight, oct.y);
-  o_ids = uvec2(u_objectWord, u_reflectorWord);
+  o_ids = uvec2(objectWordBehind(shaded, p.isFront, false), u_reflectorWord);
 #else
   o_radiance = vec4(shaded.radiance, 0.0f);
   o_ids = uvec2(u_objectWord, u_reflectorWord);

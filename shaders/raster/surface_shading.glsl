@@ -8,6 +8,8 @@ uniform uint u_objectWord;        // (object + 1) | shell << 31
 uniform uint u_reflectorWord;     // (reflector + 1) | chain << 16
 uniform float u_reflectivity;     // of the part, 0 for everything that is no reflector
 uniform float u_clearcoat;
+uniform float u_ior;              // of a refractor's solid, 0 for everything else
+uniform float u_transmission;
 uniform int u_lightCount;
 uniform vec4 u_lights[4 * kMaxLights];  // color+kind, position+range, direction+cosInner, cosOuter
 
@@ -27,8 +29,9 @@ struct SurfacePoint {
 /// What leaves it.
 struct ShadedPoint {
   vec3 radiance;          // without the mirror lobe
-  vec3 weight;            // what part of the mirrored radiance
-  vec3 mirrorDirection;
+  vec3 weight;            // what part of the mirrored (or refracted) radiance
+  vec3 mirrorDirection;   // or, behind a refractor's surface, the refracted direction
+  bool isTotal;           // totally reflected at a refractor's surface
 };
 
 vec4 readSlot(sampler2D map, int slot, SurfacePoint p) {
@@ -80,6 +83,13 @@ PunctualLight readLight(int i) {
   return light;
 }
 
+/// ids.r of a pixel whose mirrored or refracted ray goes on inside a refractor's solid. `wasInside`: so did the ray that
+/// met this point.
+uint objectWordBehind(ShadedPoint shaded, bool isFront, bool wasInside) {
+  bool isInside = u_ior > 0.0f ? isFront != shaded.isTotal : wasInside;
+  return u_objectWord | (isInside ? kInsideBit : 0u);
+}
+
 ShadedPoint shadePoint(SurfacePoint p, vec3 normal, vec3 baseColor) {
   Surface s;
   s.position = p.position;
@@ -100,8 +110,11 @@ ShadedPoint shadePoint(SurfacePoint p, vec3 normal, vec3 baseColor) {
   s.f0Dielectric = m_more.x;
   s.reflectivity = u_reflectivity;
   s.clearcoat = u_clearcoat;
+  s.transmission = u_transmission;
+  s.eta = u_ior > 0.0f ? relativeIndex(u_ior, p.isFront) : 0.0f;
 
   ShadedPoint shaded;
+  shaded.isTotal = false;
   shaded.mirrorDirection = reflect(-s.toViewer, s.normal);
   shaded.radiance = s.baseColor;  // unlit
   shaded.weight = vec3(0.0f);
@@ -110,6 +123,11 @@ ShadedPoint shadePoint(SurfacePoint p, vec3 normal, vec3 baseColor) {
   for (int i = 0; i < u_lightCount; ++i) direct += shadeLight(readLight(i), s);
   vec3 prefiltered = s.reflectivity > 0.0f ? vec3(0.0f) : lookUpPrefiltered(shaded.mirrorDirection, s.roughness);
   shaded.radiance = shadeSurface(s, direct, lookUpIrradiance(s.normal), prefiltered);
-  if ((u_reflectorWord & 0xffffu) != 0u) shaded.weight = mirrorWeight(s);
+  if ((u_reflectorWord & 0xffffu) != 0u) shaded.weight = s.eta > 0.0f ? refractionWeight(s) : mirrorWeight(s);
+  if (s.eta > 0.0f) {
+    vec3 refracted = refract(-s.toViewer, s.normal, s.eta);
+    shaded.isTotal = dot(refracted, refracted) == 0.0f;
+    if (!shaded.isTotal) shaded.mirrorDirection = refracted;
+  }
   return shaded;
 }

@@ -5,8 +5,10 @@
 #ifdef MASKED
 #include "lib/brdf.glsl"
 #include "lib/environment.glsl"
+#include "lib/refraction.glsl"
 #include "lib/texture_lod.glsl"
 #include "raster/environment_lookup.glsl"
+#include "raster/level_pixels.glsl"
 #include "raster/material.glsl"
 #include "raster/surface_shading.glsl"
 #endif

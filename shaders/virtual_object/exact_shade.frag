@@ -4,6 +4,7 @@
 
 #include "lib/brdf.glsl"
 #include "lib/environment.glsl"
+#include "lib/refraction.glsl"
 #include "lib/texture_lod.glsl"
 #include "raster/environment_lookup.glsl"
 #include "raster/level_pixels.glsl"
@@ -18,6 +19,7 @@ uniform usampler2D u_hits;
 uniform uint u_parentWord;  // ids.g that a pixel of the level before must have
 uniform uint u_part;
 uniform float u_depthFromDistance;
+uniform vec3 u_absorption;  // of the solid that a ray goes through if its pixel says so
 
 #ifdef OVERLAY
 layout(location = 0) out vec4 o_color;
@@ -49,14 +51,16 @@ void main() {
   SurfacePoint p = makeSurfacePoint(pixel, corners, origin.xyz, direction.xyz, hit, e1, e2);
   vec4 base = readBaseColor(p);
   ShadedPoint shaded = shadePoint(p, shadingNormal(p), base.rgb);
+  bool isInside = (texelFetch(u_parentIds, pixel, 0).x & kInsideBit) != 0u;
+  vec3 left = isInside ? absorbLight(u_absorption, hit.t) : vec3(1.0f);
   gl_FragDepth = min(hit.t * u_depthFromDistance, 0.9999999f);
 #ifdef OVERLAY
-  o_color = vec4(shaded.radiance * base.a, base.a);
+  o_color = vec4(shaded.radiance * left * base.a, base.a);
 #else
   vec2 oct = octahedralFromDirection(shaded.mirrorDirection);
-  o_radiance = vec4(shaded.radiance, oct.x);
+  o_radiance = vec4(shaded.radiance * left, oct.x);
   o_position = vec4(p.position, origin.w + hit.t);
-  o_weight = vec4(shaded.weight, oct.y);
-  o_ids = uvec2(u_objectWord, u_reflectorWord);
+  o_weight = vec4(shaded.weight * left, oct.y);
+  o_ids = uvec2(objectWordBehind(shaded, p.isFront, isInside), u_reflectorWord);
 #endif
 }

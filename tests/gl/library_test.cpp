@@ -28,7 +28,7 @@ struct Function {
   const char* name;
   double tolerance;
 };
-constexpr std::array<Function, 12> kFunctions{{{"fresnelSchlick", 1e-5},
+constexpr std::array<Function, 15> kFunctions{{{"fresnelSchlick", 1e-5},
                                                {"surfaceF0", 1e-5},
                                                {"mirrorWeight", 1e-5},
                                                {"lightIrradiance", 1e-5},
@@ -39,7 +39,10 @@ constexpr std::array<Function, 12> kFunctions{{{"fresnelSchlick", 1e-5},
                                                {"latLongFromDirection", 1e-4},
                                                {"environmentLod", 1e-4},
                                                {"evaluateIrradiance", 1e-5},
-                                               {"textureLodFromDerivatives", 1e-4}}};
+                                               {"textureLodFromDerivatives", 1e-4},
+                                               {"relativeIndex", 1e-6},
+                                               {"refractionWeight", 1e-4},
+                                               {"absorbLight", 1e-5}}};
 
 std::vector<Rows> makeInputs() {
   std::mt19937 random(7);
@@ -56,17 +59,19 @@ std::vector<Rows> makeInputs() {
   std::vector<Rows> inputs(kCases);
   for (Rows& r : inputs) {
     const bool isReflector = random() % 4 == 0;
-    r[0] = vec4(3.0f * direction(), float(random() % 3) * 0.5f);           // position, metallic
-    r[1] = vec4(direction(), uniform(0.2f, 1));                            // normal, roughness
-    r[2] = vec4(direction(), uniform(0, 1));                               // to viewer, occlusion
-    r[3] = vec4(color(), uniform(0.02f, 0.1f));                            // base colour, F0
-    r[4] = vec4(color(), isReflector ? uniform(0.1f, 1) : 0.0f);           // emissive, reflectivity
-    r[5] = vec4(5.0f * color(), isReflector ? uniform(0, 1) : 0.0f);       // light colour, clearcoat
-    r[6] = vec4(3.0f * direction(), float(random() % 3));                  // light position, kind
-    r[7] = vec4(direction(), random() % 2 == 0 ? 0.0f : uniform(1, 10));   // light direction, range
-    r[8] = vec4(uniform(0.8f, 1), uniform(0.1f, 0.7f), uniform(0, 1), 0);  // cone, a cosine
+    r[0] = vec4(3.0f * direction(), float(random() % 3) * 0.5f);          // position, metallic
+    r[1] = vec4(direction(), uniform(0.2f, 1));                           // normal, roughness
+    r[2] = vec4(direction(), uniform(0, 1));                              // to viewer, occlusion
+    r[3] = vec4(color(), uniform(0.02f, 0.1f));                           // base colour, F0
+    r[4] = vec4(color(), isReflector ? uniform(0.1f, 1) : 0.0f);          // emissive, reflectivity
+    r[5] = vec4(5.0f * color(), isReflector ? uniform(0, 1) : 0.0f);      // light colour, clearcoat
+    r[6] = vec4(3.0f * direction(), float(random() % 3));                 // light position, kind
+    r[7] = vec4(direction(), random() % 2 == 0 ? 0.0f : uniform(1, 10));  // light direction, range
+    r[8] = vec4(uniform(0.8f, 1), uniform(0.1f, 0.7f), uniform(0, 1),
+                // cone, a cosine, relative index
+                random() % 2 == 0 ? 0.0f : uniform(0.5f, 2));
     r[9] = vec4(direction(), uniform(0.5f, 4));
-    r[10] = vec4(direction(), 0);
+    r[10] = vec4(direction(), uniform(0, 1));  // transmission
   }
   return inputs;
 }
@@ -77,6 +82,7 @@ glsl::Surface readSurface(const Rows& r) {
   s.baseColor = vec3(r[3]), s.emissive = vec3(r[4]);
   s.metallic = r[0].w, s.roughness = r[1].w, s.occlusion = r[2].w, s.f0Dielectric = r[3].w;
   s.reflectivity = r[4].w, s.clearcoat = r[5].w;
+  s.eta = r[8].w, s.transmission = r[10].w;
   return s;
 }
 
@@ -116,6 +122,12 @@ vec3 evaluate(int function, const Rows& r) {
     case 10:
       return glsl::evaluateIrradiance(s.position, s.baseColor, s.emissive, light.color, light.position, a, b,
                                       light.direction, s.toViewer, s.normal);
+    case 12:
+      return vec3(glsl::relativeIndex(1.0f + r[10].w, a.x > 0.0f));
+    case 13:
+      return glsl::refractionWeight(s);
+    case 14:
+      return glsl::absorbLight(s.emissive, r[9].w);
     default:
       return vec3(glsl::textureLodFromDerivatives(vec2(a) * 30.0f, vec2(b) * 30.0f, 8.0f));
   }

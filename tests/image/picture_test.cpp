@@ -145,6 +145,13 @@ TEST(Picture, mirrorOfMixedCurvature) {
                {8, 0.15, "solver exact: rounding, and edges that fall to the other side of a pixel"});
 }
 
+TEST(Picture, refraction) {
+  const Subject subject = subjectOf("lenses");
+  expectWithin(
+      subject, withTurnedNormals(subject.world, 0.005),
+      {24, 0.25, "solver exact: rounding, and rims, where the whole room is squeezed into one pixel"});
+}
+
 // A baseline where the truth cannot judge: both renderers share their shading, sky and tone mapping, so a
 // change there changes both alike. CATOPTRIC_WRITE_BASELINES=1 writes it anew; look at it before it is kept.
 TEST(Picture, shadingIsAsItWas) {

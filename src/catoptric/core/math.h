@@ -2,6 +2,9 @@
 // The small mathematics every folder shares, on GLM. Angles are radians, world space is unmarked.
 #pragma once
 
+#include <cmath>
+#include <optional>
+
 #ifndef GLM_FORCE_RADIANS
 #define GLM_FORCE_RADIANS
 #endif
@@ -50,6 +53,17 @@ struct Plane {
 /// Mirror image of a direction for a unit normal (the mirror law; either side, like GLSL's reflect).
 [[nodiscard]] inline dvec3 reflectDirection(const dvec3& direction, const dvec3& unitNormal) {
   return direction - 2.0 * glm::dot(direction, unitNormal) * unitNormal;
+}
+
+/// Direction behind a surface by Snell's law, like GLSL's refract: `eta` is the index of refraction on the
+/// side that the light comes from over that on the other side; the unit normal points to the former. Nothing
+/// where reflection is total.
+[[nodiscard]] inline std::optional<dvec3> findRefractedDirection(const dvec3& direction,
+                                                                 const dvec3& unitNormal, double eta) {
+  const double along = glm::dot(direction, unitNormal);
+  const double square = 1.0 - eta * eta * (1.0 - along * along);
+  if (square < 0.0) return std::nullopt;
+  return eta * direction - (eta * along + std::sqrt(square)) * unitNormal;
 }
 
 /// The 4x4 matrix of reflectPoint (McReynolds & Blythe 2005, section 17.1.2; Goldman 1990).

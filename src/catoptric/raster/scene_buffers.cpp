@@ -29,7 +29,7 @@ MaterialBlock makeBlock(const scene::Material& m, const std::array<const gl::Tex
   const float ratio = (m.ior - 1.0f) / (m.ior + 1.0f);
   const float f0 = m.ior == 0.0f ? 1.0f : ratio * ratio * m.specular;
   block.more = vec4(f0, m.unlit ? 1.0f : 0.0f, m.alphaMode == scene::AlphaMode::Mask ? 1.0f : 0.0f,
-                    m.doubleSided ? 1.0f : 0.0f);
+                    m.isSeenFromBehind() ? 1.0f : 0.0f);
   const scene::TextureSlot* slots[5] = {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture,
                                         &m.occlusionTexture, &m.emissiveTexture};
   for (std::size_t i = 0; i < 5; ++i) {

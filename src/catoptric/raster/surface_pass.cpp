@@ -23,6 +23,8 @@ void bindPart(gl::Program& program, const SceneBuffers& scene, std::uint32_t ind
   program.set("u_reflectorWord", (isReflector ? part.reflector + 1u : 0u) | (chain ? chain->id << 16 : 0u));
   program.set("u_reflectivity", isReflector ? world.reflectors[part.reflector].reflectivity : 0.0f);
   program.set("u_clearcoat", isReflector ? world.reflectors[part.reflector].clearcoat : 0.0f);
+  program.set("u_ior", isReflector ? world.reflectors[part.reflector].ior : 0.0f);
+  program.set("u_transmission", scene.material(part.material).transmission);
   scene.bindMaterial(part.material);
 }
 
@@ -106,7 +108,7 @@ void SurfacePass::drawRanges(const SceneBuffers& scene, const VertexStreams& str
     const gl::Cull hidden = view.windingFlipped ? gl::Cull::Front : gl::Cull::Back;
     gl::setDrawState({.depthTest = true,
                       .depthWrite = !blended,
-                      .cull = material.doubleSided ? gl::Cull::None : hidden,
+                      .cull = material.isSeenFromBehind() ? gl::Cull::None : hidden,
                       .blendPremultiplied = blended});
     bindPart(program, scene, range.part, view.chain);
     gl::drawTriangles(range.firstIndex, range.indexCount);

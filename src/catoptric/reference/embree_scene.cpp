@@ -143,9 +143,10 @@ void EmbreeScene::Impl::sortTriangles() {
   for (const scene::Part& part : geometry.parts) {
     const scene::Material& material = shader.materialOf(part);
     const bool masked = material.alphaMode == scene::AlphaMode::Mask;
-    const bool plain = material.doubleSided && material.alphaMode == scene::AlphaMode::Opaque;
+    const bool plain = material.isSeenFromBehind() && material.alphaMode == scene::AlphaMode::Opaque;
     TriangleSet& set = sets[plain && part.reflector == core::kNoId ? 0 : 1];
-    const auto attributes = std::uint8_t((material.doubleSided ? 0 : kSingleSided) | (masked ? kMasked : 0));
+    const auto attributes =
+        std::uint8_t((material.isSeenFromBehind() ? 0 : kSingleSided) | (masked ? kMasked : 0));
     for (std::uint32_t i = part.firstIndex; i < part.firstIndex + part.indexCount; i += 3) {
       bool usable = true;
       for (int k = 0; k < 3; ++k) usable = usable && isUsable(geometry.positions[geometry.indices[i + k]]);

@@ -53,4 +53,16 @@ inline constexpr double kLargestDerivative = 1e12;
   return limitDerivative(directionChange - 2.0 * (along * normalChange + alongChange * normal));
 }
 
+/// Equations 16 to 18: change of the refracted direction (core::findRefractedDirection(), which must not be
+/// totally reflected) when direction and unit normal change.
+[[nodiscard]] inline dvec3 refractDerivative(const dvec3& direction, const dvec3& directionChange,
+                                             const dvec3& normal, const dvec3& normalChange, double eta) {
+  const double along = glm::dot(direction, normal);
+  const double behind = std::sqrt(std::max(1.0 - eta * eta * (1.0 - along * along), 0.0));
+  const double alongChange = glm::dot(directionChange, normal) + glm::dot(direction, normalChange);
+  const double mu = eta * along + behind;
+  const double muChange = eta * alongChange * (1.0 + eta * along / std::max(behind, 1e-12));
+  return limitDerivative(eta * directionChange - (mu * normalChange + muChange * normal));
+}
+
 }  // namespace catoptric::reference

@@ -23,7 +23,8 @@
 namespace catoptric::reference {
 
 struct TraceOptions {
-  int bounces = 1;  ///< mirror bounces; 0 = mirrors show the environment only
+  int bounces =
+      1;  ///< mirror bounces; 0 = mirrors show the environment only. See scene::kMostCrossings, too.
   int samples = 1;  ///< rays per pixel, on the same sub-pixel pattern as the rasterizer (samplePattern())
   bool withSeen = true;        ///< fill `seen` (always from the pixel centre)
   bool withFootprints = true;  ///< fill `footprints`

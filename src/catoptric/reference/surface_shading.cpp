@@ -242,7 +242,12 @@ Shaded SurfaceShader::shade(const Ray& ray, const Hit& hit, const ShadingNormal&
   s.reflectivity = isReflector ? geometry_.reflectors[part.reflector].reflectivity : 0.0f;
   s.clearcoat = isReflector ? geometry_.reflectors[part.reflector].clearcoat : 0.0f;
 
-  if (isReflector) result.mirrorWeight = scene::glsl::mirrorWeight(s);
+  const float ior = isReflector ? geometry_.reflectors[part.reflector].ior : 0.0f;
+  s.transmission = m.source->transmission;
+  s.eta = ior > 0.0f ? scene::glsl::relativeIndex(ior, hit.isFront) : 0.0f;
+
+  if (isReflector)
+    result.mirrorWeight = ior > 0.0f ? scene::glsl::refractionWeight(s) : scene::glsl::mirrorWeight(s);
   if (s.reflectivity == 1.0f && s.metallic == 1.0f) {  // all of shadeSurface() but the emission is zero then
     result.radiance = s.emissive;
     return result;

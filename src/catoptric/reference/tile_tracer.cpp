@@ -33,6 +33,23 @@ Ray mirrorRay(const Ray& ray, const Hit& hit, const ShadingNormal& normal) {
   return mirrored;
 }
 
+/// The refracted ray, or the mirrored one where reflection is total; `isTotal` says which.
+Ray refractRay(const Ray& ray, const Hit& hit, const ShadingNormal& normal, double ior, bool& isTotal) {
+  const double eta = hit.isFront ? 1.0 / ior : ior;
+  const auto direction = core::findRefractedDirection(ray.direction, normal.normal, eta);
+  isTotal = !direction;
+  if (isTotal) return mirrorRay(ray, hit, normal);
+  Ray refracted;
+  refracted.origin = hit.position;
+  refracted.direction = glm::normalize(*direction);
+  const PerPixel<dvec3>& change = ray.differential.direction;
+  refracted.differential.origin = hit.positionChange;
+  refracted.differential.direction = {
+      refractDerivative(ray.direction, change.dx, normal.normal, normal.change.dx, eta),
+      refractDerivative(ray.direction, change.dy, normal.normal, normal.change.dy, eta)};
+  return refracted;
+}
+
 /// Column and row of the i-th pixel of a tile along a Z-curve: neighbours in a packet are neighbours in the
 /// picture.
 ivec2 alongZCurve(int i) {
@@ -76,7 +93,8 @@ TileTracer::Path TileTracer::startPath(int x, int y, const dvec3& direction) con
   path.ignoredTriangle = path.ignoredPart = path.passedTriangle = path.firstReflector = kNone;
   path.x = x;
   path.y = y;
-  path.bounces = path.layers = 0;
+  path.bounces = path.crossings = path.layers = 0;
+  path.medium = kNone;
   path.throughput = vec3(1);
   path.length = 0;
   return path;
@@ -141,6 +159,9 @@ bool TileTracer::follow(Path& path, const TraceAnswer& answer, Purpose purpose) 
   const bool isBlended = !isMirror && scene_.shader.materialOf(part).alphaMode == scene::AlphaMode::Blend;
   if (isBlended && path.layers < kMaxBlendLayers) return passBlended(path, answer, hit, purpose);
 
+  if (path.medium != core::kNoId)
+    path.throughput *=
+        scene::glsl::absorbLight(scene_.geometry.reflectors[path.medium].absorption, float(hit.t));
   const bool wantsRadiance = purpose != Purpose::Seen;
   ShadingNormal normal;
   if (isMirror || wantsRadiance) normal = scene_.shader.computeNormal(hit);
@@ -190,8 +211,13 @@ bool TileTracer::followMirror(Path& path, const Hit& hit, const ShadingNormal& n
                               Purpose purpose) {
   const scene::Part& part = scene_.geometry.parts[hit.part];
   if (path.firstReflector == core::kNoId) path.firstReflector = part.reflector;
-  const Ray mirrored = mirrorRay(path.ray, hit, normal);
-  if (path.bounces >= options_.bounces) {  // the last allowed mirror shows the environment
+  const scene::Reflector& reflector = scene_.geometry.reflectors[part.reflector];
+  bool isTotal = false;
+  const Ray mirrored = reflector.isRefractor() ? refractRay(path.ray, hit, normal, reflector.ior, isTotal)
+                                               : mirrorRay(path.ray, hit, normal);
+  const bool isLast = reflector.isRefractor() ? path.crossings >= scene::kMostCrossings
+                                              : path.bounces - path.crossings >= options_.bounces;
+  if (isLast) {  // it shows the environment
     if (purpose != Purpose::Seen) {
       const vec3 shown = sampleEnvironment(scene_.environment, vec3(mirrored.direction),
                                            toFloat(mirrored.differential.direction));
@@ -208,11 +234,12 @@ bool TileTracer::followMirror(Path& path, const Hit& hit, const ShadingNormal& n
   // A ray that leaves the front of a convex mirror never meets it again; but interpolated normals can send a
   // grazing one slightly below its own facet, where it would hit the neighbours from inside. The smooth
   // surface has no such hits.
-  const scene::Reflector& reflector = scene_.geometry.reflectors[part.reflector];
-  const bool leavesForGood =
-      reflector.shape == scene::ReflectorShape::Plane || (reflector.isConvex && hit.isFront);
+  const bool leavesForGood = reflector.shape == scene::ReflectorShape::Plane ||
+                             (reflector.isConvex && !reflector.isRefractor() && hit.isFront);
   path.ignoredPart = leavesForGood ? hit.part : core::kNoId;
   path.passedTriangle = core::kNoId;
+  if (reflector.isRefractor()) ++path.crossings;
+  if (reflector.isRefractor()) path.medium = hit.isFront != isTotal ? part.reflector : core::kNoId;
   ++path.bounces;
   return true;
 }

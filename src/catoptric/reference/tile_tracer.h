@@ -39,7 +39,8 @@ class TileTracer {
     float tNear;
     std::uint32_t ignoredTriangle, ignoredPart, passedTriangle;
     std::uint32_t firstReflector;
-    int x, y, bounces, layers;
+    std::uint32_t medium;                  // the refractor inside which the ray goes
+    int x, y, bounces, crossings, layers;  // bounces: crossings of refractors' surfaces included
     vec3 throughput;
     double length;  // of the legs before this ray
   };

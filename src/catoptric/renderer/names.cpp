@@ -51,6 +51,11 @@ std::string_view solverName(Solver solver) {
 namespace {
 
 MethodChoice chooseByShape(const scene::Reflector& reflector) {
+  if (reflector.isRefractor())
+    return {Method::Virtual,
+            Solver::Exact,
+            "light goes through: each pixel's refracted ray meets the real triangles",
+            {}};
   if (reflector.shape == scene::ReflectorShape::Plane)
     return {Method::Virtual, Solver::Auto, "flat: the scene is mirrored, exact at every pixel", {}};
   if (reflector.isConvex)

@@ -127,7 +127,7 @@ void RasterFrame::prepareLevels(int count, int widthPx, int heightPx) {
 }
 
 std::vector<raster::Chain> RasterFrame::findChains(const raster::Level& level,
-                                                   const std::vector<raster::Chain>& parents,
+                                                   const std::vector<raster::Chain>& parents, int bounces,
                                                    bool& isComplete) {
   isComplete = true;
   const int width = level.widthPx, height = level.heightPx;
@@ -163,6 +163,10 @@ std::vector<raster::Chain> RasterFrame::findChains(const raster::Level& level,
       continue;
     }
     raster::Chain chain = raster::extendChain(*parent, (word & 0xffffu) - 1u, geometry_);
+    if (chain.crossings > scene::kMostCrossings || chain.level - chain.crossings > bounces) {
+      isComplete = false;
+      continue;
+    }
     chain.id = ++lastChain_;
     chain.bounds = {extent.x0, extent.y0, extent.x1 - extent.x0 + 1, extent.y1 - extent.y0 + 1};
     chain.pixels = extent.pixels;
@@ -173,6 +177,7 @@ std::vector<raster::Chain> RasterFrame::findChains(const raster::Level& level,
 
 raster::ReflectionMethod* RasterFrame::pickMethod(const raster::Chain& chain, const FrameOptions& options) {
   if (options.method == Method::Environment) return &environment_;
+  if (chain.hasRefractor()) return &exact_;
   if (options.method == Method::Zexel && zexel_.supports(chain)) return &zexel_;
   const bool isMorphing = options.method == Method::Morphing;
   const bool needsExact =
@@ -191,7 +196,11 @@ raster::ReflectionMethod* RasterFrame::pickMethod(const raster::Chain& chain, co
 void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOptions& options,
                                const dvec2& jitterPx, Frame& frame) {
   const auto start = std::chrono::steady_clock::now();
-  const int bounces = options.method == Method::None ? 0 : options.bounces;
+  const bool hasRefractors =
+      std::any_of(geometry_.reflectors.begin(), geometry_.reflectors.end(),
+                  [](const scene::Reflector& reflector) { return reflector.isRefractor(); });
+  const int mostLevels =
+      options.method == Method::None ? 0 : options.bounces + (hasRefractors ? scene::kMostCrossings : 0);
   raster::MethodCounters counters;
   raster::FrameContext context{
       scene_,   camera, surfaces_, primary_, compose_, findNearPlane(camera), jitterPx, options.maxErrorPx,
@@ -209,10 +218,11 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   std::vector<raster::Chain> parents{raster::makeEyeChain()};
   int levelCount = 1;
   std::uint64_t visibleReflectors = 0;
-  for (int level = 0; level < bounces; ++level) {
+  for (int level = 0; level < mostLevels; ++level) {
     // 2
     bool isComplete = false;
-    const std::vector<raster::Chain> chains = findChains(*levels_[std::size_t(level)], parents, isComplete);
+    const std::vector<raster::Chain> chains =
+        findChains(*levels_[std::size_t(level)], parents, options.bounces, isComplete);
     if (level == 0) visibleReflectors = chains.size();
     if (chains.empty()) break;
     context.parentIds = idsPixels_;
@@ -287,7 +297,7 @@ void RasterFrame::readSeen(const raster::Level& level, Frame& frame) const {
   });
   forFlippedRows(ids, width, height, [&](int x, int y, const uvec2& id) {
     core::SeenPixel& seen = frame.seen.at(x, y);
-    const std::uint32_t object = id.x & 0x7fffffffu, reflector = id.y & 0xffffu;
+    const std::uint32_t object = id.x & 0x3fffffffu, reflector = id.y & 0xffffu;
     seen.object = object == 0 ? core::kNoId : object - 1;
     seen.shell = id.x >> 31;
     seen.firstReflector = reflector == 0 ? core::kNoId : reflector - 1;

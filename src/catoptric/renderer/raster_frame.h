@@ -31,9 +31,10 @@ class RasterFrame {
   void prepareLevels(int count, int widthPx, int heightPx);
   void renderSample(const scene::CameraFrame& camera, const FrameOptions& options, const dvec2& jitterPx,
                     Frame& frame);
-  /// Chains that the mirrors visible in a level begin; from the level's ids. `isComplete`: there are no more.
+  /// Chains of at most `bounces` mirrors and scene::kMostCrossings refractors that those visible in a level
+  /// begin; from the level's ids. `isComplete`: there are no more.
   [[nodiscard]] std::vector<raster::Chain> findChains(const raster::Level& level,
-                                                      const std::vector<raster::Chain>& parents,
+                                                      const std::vector<raster::Chain>& parents, int bounces,
                                                       bool& isComplete);
   [[nodiscard]] raster::ReflectionMethod* pickMethod(const raster::Chain& chain, const FrameOptions& options);
   /// Opens the baked file, or makes ready to bake where the eye is.

@@ -19,7 +19,7 @@ struct Row {
 };
 
 /// Adding a scene = one file in built_in/ and one row here.
-constexpr std::array<Row, 16> kRows = {{
+constexpr std::array<Row, 17> kRows = {{
     {{"four-spheres", "four chrome spheres on a table in a furnished room (1998, figures 15 and 16)"},
      built_in::makeFourSpheres},
     {{"cylinder", "an upright chrome cylinder on a patterned floor (1998, figure 12)"},
@@ -45,6 +45,8 @@ constexpr std::array<Row, 16> kRows = {{
     {{"cone", "a chrome cone on a table of rings and rays"}, built_in::makeCone},
     {{"vase", "a surface of revolution with a waist, where it is a saddle"}, built_in::makeVase},
     {{"wavy-wall", "a wall of wavy chrome as at a fair, crests and troughs"}, built_in::makeWavyWall},
+    {{"lenses", "a glass ball, a free-form lens and a block of green glass: refraction"},
+     built_in::makeLenses},
     {{"columns", "columns around a chrome sphere and a cube close to it (2004, figure 1)"},
      built_in::makeColumns},
     {{"furnished-room", "about 190,000 polygons and two large flat mirrors (Bastos, figure 7)"},

@@ -66,6 +66,19 @@ void setEmission(Json& json, const Material& m, ExtensionNames& used) {
     setExtension(json, "KHR_materials_emissive_strength", {{"emissiveStrength", makeNumber(strength)}}, used);
 }
 
+void setTransmission(Json& json, const Material& m, ExtensionNames& used) {
+  if (m.transmission > 0)
+    setExtension(json, "KHR_materials_transmission", {{"transmissionFactor", makeNumber(m.transmission)}},
+                 used);
+  if (m.thickness <= 0) return;
+  Json volume{{"thicknessFactor", makeNumber(m.thickness)}};
+  if (m.attenuationDistance > 0) {
+    volume["attenuationDistance"] = makeNumber(m.attenuationDistance);
+    volume["attenuationColor"] = makeVectorJson(m.attenuationColor);
+  }
+  setExtension(json, "KHR_materials_volume", volume, used);
+}
+
 }  // namespace
 
 double makeNumber(float value) {
@@ -105,6 +118,7 @@ Json makeMaterialJson(const Material& m, ExtensionNames& used) {
                  {{"clearcoatFactor", makeNumber(m.clearcoat)},
                   {"clearcoatRoughnessFactor", makeNumber(m.clearcoatRoughness)}},
                  used);
+  setTransmission(json, m, used);
   const Json hint = makeHintJson(m.hint);
   if (!hint.is_null()) json["extras"]["catoptric"] = hint;
   return json;

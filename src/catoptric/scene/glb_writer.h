@@ -23,7 +23,7 @@ struct GlbOptions {
 /// declared when used: KHR_lights_punctual, KHR_materials_unlit, _emissive_strength, _ior, _specular,
 /// _clearcoat, KHR_texture_transform. Hints go to `extras.catoptric` of nodes and materials. Preconditions
 /// (asserted): indices in range, attribute arrays as long as positions, worldFromMesh without shear. Not
-/// written: Material::transmission, Scene::warnings.
+/// written: Scene::warnings.
 [[nodiscard]] std::vector<std::byte> makeGlb(const Scene& scene, const GlbOptions& options = {});
 
 }  // namespace catoptric::scene

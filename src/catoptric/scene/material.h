@@ -64,7 +64,17 @@ struct Material {
   float clearcoat = 0.0f;  ///< KHR_materials_clearcoat
   float clearcoatRoughness = 0.0f;
   float transmission = 0.0f;  ///< KHR_materials_transmission
+  float thickness = 0.0f;  ///< KHR_materials_volume; 0 = a thin wall, anything else: the mesh bounds a solid
+  vec3 attenuationColor{1.0f};       ///< KHR_materials_volume: what is left of white light after ...
+  float attenuationDistance = 0.0f;  ///< ... this way through the solid, world units; 0 = endless
   ReflectorHint hint;
+
+  /// Does light go on behind its surface, inside a solid, bent by Snell's law?
+  [[nodiscard]] bool isRefractive() const {
+    return transmission > 0.0f && thickness > 0.0f && ior >= 1.0f && !unlit;
+  }
+  /// Is there a surface for rays that come from behind? The solid's own light leaves through there.
+  [[nodiscard]] bool isSeenFromBehind() const { return doubleSided || isRefractive(); }
 };
 
 }  // namespace catoptric::scene

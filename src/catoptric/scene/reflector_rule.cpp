@@ -11,6 +11,8 @@ namespace catoptric::scene {
 namespace {
 
 constexpr double kIgnoredTexels = 0.02;
+constexpr float kLeastTransmission = 0.5f;  // of a refractor
+constexpr float kMostMetallicGlass = 0.1f;
 
 struct ChannelRange {
   double mean = 1, low = 1, high = 1;  // low, high: all but kIgnoredTexels of the texels lie between
@@ -35,6 +37,13 @@ ReflectorDecision decideByRule(const Scene& scene, const Material& material,
   ReflectorDecision decision;
   if (material.unlit) {
     decision.reason = "material: unlit";
+    return decision;
+  }
+  if (material.isRefractive() && material.transmission >= kLeastTransmission &&
+      material.roughness <= options.maxRoughness && material.metallic <= kMostMetallicGlass) {
+    decision.isReflector = decision.isRefractor = true;
+    decision.reason = fmt::format("transmission {:.3g} into a volume, index of refraction {:.4g}",
+                                  material.transmission, material.ior);
     return decision;
   }
   ChannelRange roughness, metallic;
@@ -96,11 +105,12 @@ ReflectorDecision ReflectorRule::decide(int material, const ReflectorHint& insta
   }
   if (hint) {
     decision.reason = byNode ? "extras.catoptric of the node" : "extras.catoptric of the material";
-    if (!*hint) return {false, 0, 0, decision.reason};
+    if (!*hint) return {false, 0, 0, false, decision.reason};
+    decision.isRefractor = false;
     if (!decision.isReflector) decision.reflectivity = 1;
     decision.isReflector = true;
   }
-  if (decision.isReflector && reflectivity) {
+  if (decision.isReflector && reflectivity && !decision.isRefractor) {
     if (decision.clearcoat > 0)
       decision.clearcoat *= *reflectivity;
     else

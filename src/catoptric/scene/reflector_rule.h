@@ -13,16 +13,18 @@ namespace catoptric::scene {
 /// Is it a mirror, by which lobe, and why (or why not).
 struct ReflectorDecision {
   bool isReflector = false;
-  float reflectivity = 0;  ///< Surface::reflectivity: the material's own lobe
-  float clearcoat = 0;     ///< Surface::clearcoat: mirror by clearcoat only
-  std::string reason;      ///< "material: metallic 1, roughness 0"
+  float reflectivity = 0;    ///< Surface::reflectivity: the material's own lobe
+  float clearcoat = 0;       ///< Surface::clearcoat: mirror by clearcoat only
+  bool isRefractor = false;  ///< light goes through instead
+  std::string reason;        ///< "material: metallic 1, roughness 0"
 };
 
 /// Decides for materials as they are used by instances; looks at each texture once.
 ///
 /// In this order: `extras.catoptric` of the node, of the material, then the rule: metallic and roughness
 /// within `options` (with a texture: their means, and all but the 2 % most deviating texels as well), or a
-/// smooth clearcoat. Unlit materials are never mirrors.
+/// smooth clearcoat. A smooth material of a solid that lets at least half of the light through
+/// (KHR_materials_transmission and _volume) is a refractor. Unlit materials are never mirrors.
 class ReflectorRule {
  public:
   ReflectorRule(const Scene& scene, const ReflectorOptions& options);

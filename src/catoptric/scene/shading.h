@@ -15,6 +15,7 @@ using std::acos;
 #define CATOPTRIC_FN inline
 #include "lib/brdf.glsl"
 #include "lib/environment.glsl"
+#include "lib/refraction.glsl"
 #include "lib/texture_lod.glsl"
 #undef CATOPTRIC_FN
 

@@ -142,6 +142,14 @@ std::vector<bool> selectReflectors(const Scene& scene, std::span<const WorldPrim
   return keep;
 }
 
+/// All triangles of a primitive: a solid is one refractor, whatever edges it has.
+MirrorPiece wholePiece(std::size_t triangles) {
+  MirrorPiece piece;
+  piece.triangles.resize(triangles);
+  std::iota(piece.triangles.begin(), piece.triangles.end(), 0u);
+  return piece;
+}
+
 /// Steps 1 and 2 for the whole scene.
 std::vector<WorldPrimitive> collectPrimitives(const Scene& scene, const ReflectorOptions& options,
                                               std::uint64_t& dropped) {
@@ -161,7 +169,9 @@ std::vector<WorldPrimitive> collectPrimitives(const Scene& scene, const Reflecto
       dropped += transformPrimitive(primitive, instance.worldFromMesh);
       if (primitive.indices.empty()) continue;
       primitive.decision = rule.decide(primitive.material, instance.hint);
-      if (primitive.decision.isReflector)
+      if (primitive.decision.isRefractor)
+        primitive.pieces = {wholePiece(primitive.indices.size() / 3)};
+      else if (primitive.decision.isReflector)
         primitive.pieces =
             findMirrorPieces({primitive.positions, primitive.normals, primitive.indices}, options);
       primitive.firstReflector = pieces;
@@ -197,6 +207,13 @@ Reflector makeReflector(const Scene& scene, const WorldGeometry& world, const Pa
   reflector.clearcoat = decision.clearcoat;
   reflector.object = part.object;
   reflector.material = part.material;
+  if (decision.isRefractor) {
+    const Material& material = scene.materials[std::size_t(part.material)];
+    reflector.ior = material.ior;
+    if (material.attenuationDistance > 0)
+      reflector.absorption =
+          -glm::log(glm::max(material.attenuationColor, vec3(1e-6f))) / material.attenuationDistance;
+  }
   reflector.doubleSided = part.material >= 0 && scene.materials[std::size_t(part.material)].doubleSided;
   measurePart(scene, world, part, options, reflector);
   return reflector;

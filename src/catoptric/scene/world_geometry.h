@@ -20,7 +20,8 @@ enum class ReflectorShape : std::uint8_t { Plane, Sphere, Cylinder, Cone, Extrus
 /// The word for it in extras.catoptric.shape, in `info` and in the viewer: "plane", "sphere", ...
 [[nodiscard]] std::string_view shapeName(ReflectorShape shape);
 
-/// A mirror surface: one flat facet, or one smoothly connected curved piece of an instance.
+/// A mirror surface: one flat facet, or one smoothly connected curved piece of an instance. Or, with Snell's
+/// law in place of the mirror law, a refractor: the whole surface of a solid that light goes through.
 struct Reflector {
   std::string name;  ///< instance name, "#k" appended when the instance has several
   ReflectorShape shape = ReflectorShape::Mesh;
@@ -29,6 +30,8 @@ struct Reflector {
   bool doubleSided = false;
   float reflectivity = 1;  ///< Surface::reflectivity for its mirror lobe; 0 when it mirrors by clearcoat
   float clearcoat = 0;     ///< Surface::clearcoat; 0 unless it mirrors by clearcoat
+  float ior = 0;           ///< index of refraction of the solid behind a refractor's front; 0 for a mirror
+  vec3 absorption{0};      ///< of a refractor: light falls by exp(-absorption * way inside), per world unit
   std::uint32_t object = core::kNoId;  ///< index of the instance
   int material = -1;
   std::uint32_t part = 0;  ///< index into WorldGeometry::parts: its triangles
@@ -37,7 +40,15 @@ struct Reflector {
   double areaWorld = 0;
   double fitError = 0;    ///< largest distance of a vertex from the recognised shape, world units
   bool isConvex = false;  ///< convex seen from its bright side (to within tessellation)
+
+  [[nodiscard]] bool isRefractor() const { return ior > 0.0f; }
+  [[nodiscard]] bool isPlanarMirror() const { return shape == ReflectorShape::Plane && !isRefractor(); }
 };
+
+/// How many surfaces of refractors light goes through on its way from the eye, besides the mirrors of
+/// --bounces; the next one shows the environment in the refracted direction. A solid takes two, and one more
+/// for each total reflection inside.
+inline constexpr int kMostCrossings = 6;
 
 /// A run of triangles with one material, one object and at most one reflector.
 struct Part {

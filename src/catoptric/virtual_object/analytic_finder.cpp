@@ -98,6 +98,7 @@ std::optional<SpecialReflector> fitSpecial(scene::ReflectorShape shape, const ge
 }  // namespace
 
 std::string findAnalyticObstacle(const scene::Reflector& reflector, bool flipped) {
+  if (reflector.isRefractor()) return "light goes through: no reflection points are sought";
   switch (reflector.shape) {
     case scene::ReflectorShape::Plane:
       return "flat: mirrored as a whole, no reflection points are sought";

@@ -22,7 +22,7 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   explicit VirtualObjectMethod(Solver solver) : solver_(solver) {}
   [[nodiscard]] std::string_view name() const override { return "virtual"; }
   [[nodiscard]] bool supports(const raster::Chain& chain) const override {
-    return chain.curved.has_value() && !chain.hasSecondCurved;
+    return chain.curved.has_value() && !chain.hasSecondCurved && !chain.hasRefractor();
   }
   void setSolver(Solver solver) { solver_ = solver; }
   void prepare(raster::FrameContext&) override {}

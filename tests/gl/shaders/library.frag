@@ -4,6 +4,7 @@
 
 #include "lib/brdf.glsl"
 #include "lib/environment.glsl"
+#include "lib/refraction.glsl"
 #include "lib/texture_lod.glsl"
 
 uniform sampler2D u_inputs;
@@ -25,6 +26,8 @@ Surface readSurface() {
   s.f0Dielectric = row(3).w;
   s.reflectivity = row(4).w;
   s.clearcoat = row(5).w;
+  s.eta = row(8).w;
+  s.transmission = row(10).w;
   return s;
 }
 
@@ -59,5 +62,8 @@ void main() {
     value = evaluateIrradiance(s.position, s.baseColor, s.emissive, light.color, light.position, a, b, light.direction,
                                s.toViewer, s.normal);
   else if (u_function == 11) value = vec3(textureLodFromDerivatives(row(9).xy * 30.0f, row(10).xy * 30.0f, 8.0f));
+  else if (u_function == 12) value = vec3(relativeIndex(1.0f + row(10).w, a.x > 0.0f));
+  else if (u_function == 13) value = refractionWeight(s);
+  else if (u_function == 14) value = absorbLight(s.emissive, row(9).w);
   o_value = vec4(value, 1.0f);
 }

@@ -120,5 +120,42 @@ TEST(SamplePattern, OneSampleIsTheCentreAndManyFillThePixel) {
   EXPECT_NEAR(mean.y, 0.5, 0.02);
 }
 
+/// eta and an incoming direction on the other side of the normal.
+struct Incidence {
+  dvec3 direction, normal;
+  double eta;
+};
+
+Incidence anyIncidence() {
+  Incidence in;
+  in.normal = anyUnitVector();
+  in.direction = anyUnitVector();
+  const double along = glm::dot(in.direction, in.normal);
+  RC_PRE(std::abs(along) > 1e-3);
+  if (along > 0) in.direction = -in.direction;
+  in.eta = *rc::gen::inRange(400, 2500) * 1e-3;
+  return in;
+}
+
+RC_GTEST_PROP(RefractedDirection, ObeysSnellInThePlaneOfIncidence, ()) {
+  const Incidence in = anyIncidence();
+  const double sine = glm::length(glm::cross(in.direction, in.normal));
+  const auto out = findRefractedDirection(in.direction, in.normal, in.eta);
+  RC_ASSERT(out.has_value() == (in.eta * sine <= 1));
+  if (!out) return;
+  RC_ASSERT(std::abs(glm::length(*out) - 1) < 1e-12);
+  RC_ASSERT(glm::dot(*out, in.normal) <= 0);
+  RC_ASSERT(glm::length(glm::cross(*out, in.normal) - in.eta * glm::cross(in.direction, in.normal)) < 1e-12);
+}
+
+RC_GTEST_PROP(RefractedDirection, TheWayBackIsTheSame, ()) {
+  const Incidence in = anyIncidence();
+  const auto out = findRefractedDirection(in.direction, in.normal, in.eta);
+  RC_PRE(out && std::abs(glm::dot(*out, in.normal)) > 1e-3);
+  const auto back = findRefractedDirection(-*out, -in.normal, 1 / in.eta);
+  RC_ASSERT(back.has_value());
+  RC_ASSERT(glm::distance(*back, -in.direction) < 1e-9);
+}
+
 }  // namespace
 }  // namespace catoptric::core

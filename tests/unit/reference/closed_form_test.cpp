@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "catoptric/reference/ray_differential.h"
 #include "traced_scene.h"
 
 namespace catoptric::reference {
@@ -115,6 +116,87 @@ TEST(ClosedForm, MirrorLawHoldsAtTheSeenMirrorPoint) {
     ++compared;
   }
   EXPECT_GT(compared, 500);
+}
+
+/// The ray of `hit` after the unit sphere, made of glass: refracted where it enters and where it leaves.
+AnalyticHit refractThroughUnitSphere(const dvec3& point, const dvec3& direction, double ior) {
+  const dvec3 inside = *core::findRefractedDirection(direction, point, 1 / ior);
+  const dvec3 exit = point - 2 * glm::dot(inside, point) * inside;
+  return {exit, *core::findRefractedDirection(inside, -exit, ior), exit};
+}
+
+/// Largest distance, relative to the flight, of what is seen on the floor through a ball of glass of
+/// index 1.5 from where rays through a ball of index `ior` meet it.
+double largestErrorThroughGlass(double ior, int* compared) {
+  TracedTestScene t = makeBallOverFloor(512);
+  scene::Material& glass = t.scene.materials.front();
+  glass.metallic = 0;
+  glass.transmission = glass.thickness = 1;
+  t.finish();
+  EXPECT_TRUE(t.world.reflectors.at(0).isRefractor());
+  const TraceResult result = t.trace(64, 64);
+  const scene::CameraFrame frame = t.frame(64, 64);
+  double largest = 0;
+  *compared = 0;
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) {
+      const core::SeenPixel& seen = result.seen.at(x, y);
+      const dvec3 d = glm::normalize(frame.rayDirection(x + 0.5, y + 0.5));
+      const auto entry = reflectInUnitSphere(frame.eye, d);
+      if (!entry || glm::dot(-d, entry->normal) < 0.5) continue;
+      const AnalyticHit exit = refractThroughUnitSphere(entry->mirrorPoint, d, ior);
+      if (exit.direction.y > -0.2) continue;
+      const double flight = (-1.5 - exit.mirrorPoint.y) / exit.direction.y;
+      const dvec3 expected = exit.mirrorPoint + flight * exit.direction;
+      EXPECT_EQ(seen.bounces, 2u);
+      largest = std::max(largest, glm::length(dvec3(seen.point) - expected) / flight);
+      ++*compared;
+    }
+  return largest;
+}
+
+TEST(ClosedForm, BallOfGlass) {
+  int compared = 0;
+  EXPECT_LT(largestErrorThroughGlass(1.5, &compared), 2e-3);
+  EXPECT_GT(compared, 100);
+  EXPECT_GT(largestErrorThroughGlass(1.52, &compared), 1e-2) << "the twin: another glass";
+}
+
+TEST(ClosedForm, ChangeOfTheRefractedDirection) {
+  const double step = 1e-6;
+  for (const double eta : {1 / 1.5, 1.5}) {
+    const dvec3 direction = glm::normalize(dvec3(0.3, -0.2, -1)), normal = glm::normalize(dvec3(0.1, 0.2, 1));
+    const dvec3 directionChange(0.4, -0.3, 0.1), normalChange(-0.2, 0.5, 0.05);
+    const auto along = [](const dvec3& unit, const dvec3& change) {
+      return change - unit * glm::dot(unit, change);
+    };
+    const dvec3 d = along(direction, directionChange), n = along(normal, normalChange);
+    const dvec3 here = *core::findRefractedDirection(direction, normal, eta);
+    const dvec3 there = *core::findRefractedDirection(glm::normalize(direction + step * d),
+                                                      glm::normalize(normal + step * n), eta);
+    EXPECT_LT(glm::length((there - here) / step - refractDerivative(direction, d, normal, n, eta)), 1e-5);
+  }
+}
+
+TEST(ClosedForm, GlassDarkensWithTheWayInside) {
+  TracedTestScene t;
+  scene::Material glass;
+  glass.metallic = glass.roughness = 0;
+  glass.transmission = glass.thickness = 1;
+  glass.ior = 1;  // nothing is bent or sent back: the way inside is all there is
+  glass.attenuationColor = {0.5f, 0.25f, 1};
+  glass.attenuationDistance = 2;
+  t.add(makeBall(512, 256), glass, "ball");
+  t.add(makeQuad({-9, -9, -3}, {18, 0, 0}, {0, 18, 0}), makeUnlit(vec3(1)), "wall");
+  t.camera.eye = {0, 0, 5};
+  t.camera.target = {0, 0, 0};
+  t.finish();
+  const auto radiance = t.trace(33, 33, {}).radiance;
+  const vec4 centre = radiance.at(16, 16), corner = radiance.at(0, 0);
+  EXPECT_NEAR(centre.x, 0.5, 0.001);
+  EXPECT_NEAR(centre.y, 0.25, 0.001);
+  EXPECT_NEAR(centre.z, 1, 0.001);
+  EXPECT_EQ(vec3(corner), vec3(1));
 }
 
 /// Things in front of a mirror in the plane z = 0, with and without the mirror.

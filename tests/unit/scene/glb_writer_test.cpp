@@ -47,6 +47,10 @@ Scene makeEverything() {
   m.specular = 0.5f;
   m.clearcoat = 0.9f;
   m.clearcoatRoughness = 0.02f;
+  m.transmission = 0.75f;
+  m.thickness = 0.1f;
+  m.attenuationColor = {0.5f, 0.25f, 1};
+  m.attenuationDistance = 0.4f;
   m.hint.reflector = true;
   m.hint.shape = "sphere";
   m.hint.reflectivity = 0.8f;
@@ -145,6 +149,10 @@ TEST(GlbWriter, MaterialsComeBack) {
   EXPECT_EQ(m.specular, out.specular);
   EXPECT_EQ(m.clearcoat, out.clearcoat);
   EXPECT_EQ(m.clearcoatRoughness, out.clearcoatRoughness);
+  EXPECT_EQ(m.transmission, out.transmission);
+  EXPECT_EQ(m.thickness, out.thickness);
+  EXPECT_EQ(m.attenuationColor, out.attenuationColor);
+  EXPECT_EQ(m.attenuationDistance, out.attenuationDistance);
   EXPECT_EQ(m.hint.reflector, true);
   EXPECT_EQ(m.hint.shape, "sphere");
   EXPECT_EQ(m.hint.reflectivity, 0.8f);
@@ -184,10 +192,10 @@ TEST(GlbWriter, SharesMeshesAndSamplersAndDeclaresItsExtensions) {
   EXPECT_EQ(document["nodes"].size(), 4u);
   EXPECT_EQ(document["samplers"].size(), 1u);
   const auto used = document["extensionsUsed"].get<std::vector<std::string>>();
-  EXPECT_EQ(used, (std::vector<std::string>{"KHR_lights_punctual", "KHR_materials_clearcoat",
-                                            "KHR_materials_emissive_strength", "KHR_materials_ior",
-                                            "KHR_materials_specular", "KHR_materials_unlit",
-                                            "KHR_texture_transform"}));
+  EXPECT_EQ(used, (std::vector<std::string>{
+                      "KHR_lights_punctual", "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
+                      "KHR_materials_ior", "KHR_materials_specular", "KHR_materials_transmission",
+                      "KHR_materials_unlit", "KHR_materials_volume", "KHR_texture_transform"}));
   for (const auto& view : document["bufferViews"]) EXPECT_EQ(view["byteOffset"].get<int>() % 4, 0);
 }
 

@@ -102,7 +102,12 @@ TEST(GltfMaterial, Extensions) {
           {{"clearcoatFactor", 0.75},
            {"clearcoatRoughnessFactor", 0.125},
            {"clearcoatTexture", {{"index", 0}}}}},
-         {"KHR_materials_transmission", {{"transmissionFactor", 0.5}}}}}}));
+         {"KHR_materials_transmission", {{"transmissionFactor", 0.5}}},
+         {"KHR_materials_volume",
+          {{"thicknessFactor", 0.25},
+           {"thicknessTexture", {{"index", 0}}},
+           {"attenuationDistance", 3},
+           {"attenuationColor", {0.5, 0.25, 1}}}}}}}));
   const Material& m = scene.materials[0];
   EXPECT_TRUE(m.unlit);
   EXPECT_EQ(m.emissive, vec3(5, 0, 0));
@@ -112,6 +117,10 @@ TEST(GltfMaterial, Extensions) {
   EXPECT_EQ(m.clearcoat, 0.75f);
   EXPECT_EQ(m.clearcoatRoughness, 0.125f);
   EXPECT_EQ(m.transmission, 0.5f);
+  EXPECT_EQ(m.thickness, 0.25f);
+  EXPECT_EQ(m.attenuationDistance, 3.0f);
+  EXPECT_EQ(m.attenuationColor, vec3(0.5f, 0.25f, 1));
+  EXPECT_FALSE(hasWarning(scene, "thicknessTexture")) << "the way inside is measured, not looked up";
   EXPECT_TRUE(hasWarning(scene, "clearcoatTexture"));
 }
 

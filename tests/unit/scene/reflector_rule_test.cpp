@@ -54,6 +54,32 @@ TEST(ReflectorRule, NodeBeatsMaterialBeatsRule) {
   EXPECT_FALSE(decide(material).isReflector);
 }
 
+TEST(ReflectorRule, ASmoothSolidThatLetsLightThroughIsARefractor) {
+  Material glass;
+  glass.metallic = glass.roughness = 0;
+  glass.transmission = glass.thickness = 1;
+  const auto decide = [](const Material& material) {
+    const Scene scene = makeScene(material);
+    return ReflectorRule(scene, {}).decide(0, {});
+  };
+  EXPECT_TRUE(decide(glass).isReflector && decide(glass).isRefractor);
+  Material other = glass;
+  other.thickness = 0;
+  EXPECT_FALSE(decide(other).isReflector) << "a thin wall";
+  other = glass;
+  other.roughness = 0.3f;
+  EXPECT_FALSE(decide(other).isReflector) << "frosted";
+  other = glass;
+  other.transmission = 0.4f;
+  EXPECT_FALSE(decide(other).isReflector);
+  other = glass;
+  other.hint.reflector = false;
+  EXPECT_FALSE(decide(other).isReflector);
+  other.hint.reflector = true;
+  EXPECT_TRUE(decide(other).isReflector);
+  EXPECT_FALSE(decide(other).isRefractor) << "who calls it a mirror gets a mirror";
+}
+
 TEST(ReflectorRule, TexturedRoughnessMustHoldEverywhere) {
   Material material;
   material.metallicRoughnessTexture.texture = 0;

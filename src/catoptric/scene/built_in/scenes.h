@@ -20,6 +20,7 @@ namespace catoptric::scene::built_in {
 [[nodiscard]] Scene makeCone();
 [[nodiscard]] Scene makeVase();
 [[nodiscard]] Scene makeWavyWall();
+[[nodiscard]] Scene makeLenses();
 [[nodiscard]] Scene makeColumns();
 [[nodiscard]] Scene makeFurnishedRoom();
 

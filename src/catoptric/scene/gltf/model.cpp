@@ -12,19 +12,13 @@ namespace {
 
 /// Extensions that we read, or that change nothing of what we show.
 constexpr std::array kSupportedExtensions = {
-    "EXT_mesh_gpu_instancing",
-    "EXT_texture_webp",
-    "KHR_lights_punctual",
-    "KHR_materials_clearcoat",
-    "KHR_materials_ior",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_specular",
-    "KHR_materials_transmission",
-    "KHR_materials_unlit",
-    "KHR_materials_variants",
-    "KHR_mesh_quantization",
-    "KHR_texture_transform",
-    "KHR_xmp",
+    "EXT_mesh_gpu_instancing", "EXT_texture_webp",
+    "KHR_lights_punctual",     "KHR_materials_clearcoat",
+    "KHR_materials_ior",       "KHR_materials_emissive_strength",
+    "KHR_materials_specular",  "KHR_materials_transmission",
+    "KHR_materials_unlit",     "KHR_materials_variants",
+    "KHR_materials_volume",    "KHR_mesh_quantization",
+    "KHR_texture_transform",   "KHR_xmp",
     "KHR_xmp_json_ld",
 };
 

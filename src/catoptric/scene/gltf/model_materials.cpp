@@ -144,6 +144,11 @@ void readMaterialExtensions(Context& context, const Element& element, Material& 
     material.transmission = float(extension->findNumber("transmissionFactor", 0, 0, 1));
     warnIgnoredTexture(context, *extension, "transmissionTexture", "KHR_materials_transmission");
   }
+  if (const auto extension = element.findExtension("KHR_materials_volume")) {
+    material.thickness = float(extension->findNumber("thicknessFactor", 0, 0));
+    material.attenuationColor = toVec3(extension->findNumbers<3>("attenuationColor", {1, 1, 1}, 0, 1));
+    material.attenuationDistance = float(extension->findNumber("attenuationDistance", 0, 0));
+  }
 }
 
 AlphaMode readAlphaMode(const Element& element) {

@@ -124,9 +124,9 @@ CoverQuery ExactMethod::makeQuery(const raster::FrameContext& frame, const raste
   query.ownPart = mirror.part;
   query.reach = 2.0 * world.bounds.radius();
   // The ray tracer's rule: what leaves the front of a convex mirror, or a plane, never comes back to it.
-  const bool leavesForGood =
-      mirror.shape == scene::ReflectorShape::Plane ||
-      (mirror.isConvex && !(mirror.doubleSided && showsBack(world, world.parts[mirror.part], query)));
+  const bool leavesForGood = mirror.shape == scene::ReflectorShape::Plane ||
+                             (mirror.isConvex && !mirror.isRefractor() &&
+                              !(mirror.doubleSided && showsBack(world, world.parts[mirror.part], query)));
   if (leavesForGood) query.excludedPart = mirror.part;
   return query;
 }
@@ -202,6 +202,7 @@ void ExactMethod::drawParts(raster::FrameContext& frame, const raster::Chain& ch
       raster::bindSurfaceShading(program, frame.scene);
       bindInputs(program, parent, chain);
       program.set("u_ownPart", world.reflectors[chain.last].part);
+      program.set("u_absorption", raster::findAbsorption(chain, world));
     }
     prepared |= 1u << textures;
     raster::bindPart(program, frame.scene, part, &chain);

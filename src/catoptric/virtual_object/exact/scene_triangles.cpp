@@ -16,7 +16,7 @@ constexpr std::size_t kVertexTexels = 5;
 
 std::uint32_t flagsOf(const raster::SceneBuffers& scene, std::uint32_t part) {
   const scene::Material& material = scene.material(scene.geometry().parts[part].material);
-  return (material.doubleSided ? 0u : kCoverSingleSided) |
+  return (material.isSeenFromBehind() ? 0u : kCoverSingleSided) |
          (material.alphaMode == scene::AlphaMode::Mask ? kCoverMasked : 0u) |
          (scene.isBlended(part) ? kCoverBlended : 0u);
 }
