@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes through the surface of a solid. World space, linear radiance; needs lib/brdf.glsl. The refracted direction
-// itself is GLSL's refract().
+// What goes through the surface of a solid. World space, linear radiance. The refracted direction itself is
+// GLSL's refract().
 // Compiled by C++ too: see shaders/README.md for what may be written here.
+
+#include "lib/brdf.glsl"
 
 /// Index of refraction on the viewer's side over that on the other side of a solid's surface.
 CATOPTRIC_FN float relativeIndex(float ior, bool isFront) { return isFront ? 1.0f / ior : ior; }

@@ -7,7 +7,6 @@
 //   SEEN     what is seen at this pixel, too
 //   OVERLAY  blended surfaces: only premultiplied colour
 
-#include "lib/brdf.glsl"
 #include "lib/environment.glsl"
 #include "lib/refraction.glsl"
 #include "lib/texture_lod.glsl"

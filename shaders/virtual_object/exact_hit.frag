@@ -3,7 +3,6 @@
 // Defines: MASKED = triangles of an alpha-masked material; cut-out texels are not there.
 
 #ifdef MASKED
-#include "lib/brdf.glsl"
 #include "lib/environment.glsl"
 #include "lib/refraction.glsl"
 #include "lib/texture_lod.glsl"

@@ -2,7 +2,6 @@
 // Step 4 of solver `exact`: shades what the reflected ray of this pixel meets and stores it as surface.frag does.
 // Defines: OVERLAY = blended triangles, each tested here; only premultiplied colour is written.
 
-#include "lib/brdf.glsl"
 #include "lib/environment.glsl"
 #include "lib/refraction.glsl"
 #include "lib/texture_lod.glsl"

@@ -13,7 +13,6 @@ using namespace glm;  // NOLINT: the included files are GLSL
 using std::acos;
 
 #define CATOPTRIC_FN inline
-#include "lib/brdf.glsl"
 #include "lib/environment.glsl"
 #include "lib/refraction.glsl"
 #include "lib/texture_lod.glsl"

@@ -2,7 +2,6 @@
 // Evaluates one function of shaders/lib for the inputs of the pixel's column. Rows of u_inputs, 4 floats each, are
 // unpacked as in tests/gl/library_inputs.h; function numbers are those of its enumeration.
 
-#include "lib/brdf.glsl"
 #include "lib/environment.glsl"
 #include "lib/refraction.glsl"
 #include "lib/texture_lod.glsl"
