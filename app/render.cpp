@@ -59,6 +59,7 @@ Json makeFrameJson(const renderer::FrameOptions& options, const renderer::Frame&
           {"counters",
            {{"virtual_vertices", counters.virtualVertices},
             {"culled_vertices", counters.culledVertices},
+            {"culled_triangles", counters.culledTriangles},
             {"virtual_triangles", counters.virtualTriangles},
             {"fragment_tests", counters.fragmentTests},
             {"reflectors_drawn", counters.reflectorsDrawn},

@@ -14,6 +14,7 @@
 #include "virtual_object/exact_ray.glsl"
 #ifdef MASKED
 #include "virtual_object/exact_point.glsl"
+#include "virtual_object/pixel_ray.glsl"
 #endif
 
 flat in uint v_triangle;
@@ -37,8 +38,7 @@ void main() {
   if (!hit.isHit || (!hit.isFront && (v_part & 1u) != 0u)) discard;
   if (v_part >> 2u == u_ownPart && abs(dot(a, v_normal)) <= 2.0f * direction.w * length(v_normal)) discard;
 #ifdef MASKED
-  if (isCutOut(readBaseColor(makeSurfacePoint(pixel, readTriangle(v_triangle), origin, direction.xyz, hit, v_b - v_a,
-                                              v_c - v_a))))
+  if (isCutOut(readBaseColor(makeSurfacePoint(readPixelRay(pixel), readTriangle(v_triangle), hit, v_b - v_a, v_c - v_a))))
     discard;
 #endif
   o_hit = uvec2(v_triangle + 1u, floatBitsToUint(hit.t));

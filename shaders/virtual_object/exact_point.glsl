@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The point of a triangle that a pixel's reflected ray meets, ready for shading. Needs level_pixels, material,
 // surface_shading and exact_ray. Vertex texels: position + uv0.x; normal + uv0.y; tangent; colour; uv1.
+// Defines, by part: COLORS = its vertices have colours; SECOND_UV = and a second set of texture coordinates.
 
-uniform usampler2D u_parentIds;
-
-/// How the reflected ray changes per pixel along one axis: difference to a neighbour on the same mirror, zero if there is
-/// none.
-void readRayStep(ivec2 pixel, ivec2 axis, vec3 origin, vec3 direction, out vec3 originStep, out vec3 directionStep) {
-  originStep = directionStep = vec3(0.0f);
-  ivec2 last = textureSize(u_parentIds, 0) - ivec2(1);
-  uint key = texelFetch(u_parentIds, pixel, 0).y;
-  ivec2 other = min(pixel + axis, last);
-  float sign = 1.0f;
-  if (other == pixel || texelFetch(u_parentIds, other, 0).y != key) {
-    other = max(pixel - axis, ivec2(0));
-    sign = -1.0f;
-    if (other == pixel || texelFetch(u_parentIds, other, 0).y != key) return;
-  }
-  originStep = sign * (texelFetch(u_rayOrigins, other, 0).xyz - origin);
-  directionStep = sign * (texelFetch(u_rayDirections, other, 0).xyz - direction);
-}
+/// A ray with its changes per pixel.
+struct PixelRay {
+  vec3 origin, originDx, originDy;
+  vec3 direction, directionDx, directionDy;
+};
 
 /// Igehy 1999, equation 10: how the hit moves over the triangle's plane. At grazing rays it goes to infinity; no texture
 /// has more levels than the limit asks for.
@@ -28,18 +16,16 @@ vec3 hitChange(vec3 originStep, vec3 directionStep, vec3 direction, RayHit hit, 
   return clamp(moved - direction * (dot(moved, normal) / hit.across), vec3(-1.0e9f), vec3(1.0e9f));
 }
 
-SurfacePoint makeSurfacePoint(ivec2 pixel, uvec4 corners, vec3 origin, vec3 direction, RayHit hit, vec3 e1, vec3 e2) {
-  vec3 normal = cross(e1, e2), originStep, directionStep;
+SurfacePoint makeSurfacePoint(PixelRay ray, uvec4 corners, RayHit hit, vec3 e1, vec3 e2) {
+  vec3 normal = cross(e1, e2);
   float square = dot(normal, normal);
   vec3 gradientB = cross(e2, normal) / square, gradientC = cross(normal, e1) / square;
   SurfacePoint p;
-  p.position = origin + hit.t * direction;
-  p.toViewer = -direction;
+  p.position = ray.origin + hit.t * ray.direction;
+  p.toViewer = -ray.direction;
   p.isFront = hit.isFront;
-  readRayStep(pixel, ivec2(1, 0), origin, direction, originStep, directionStep);
-  p.positionDx = hitChange(originStep, directionStep, direction, hit, normal);
-  readRayStep(pixel, ivec2(0, 1), origin, direction, originStep, directionStep);
-  p.positionDy = hitChange(originStep, directionStep, direction, hit, normal);
+  p.positionDx = hitChange(ray.originDx, ray.directionDx, ray.direction, hit, normal);
+  p.positionDy = hitChange(ray.originDy, ray.directionDy, ray.direction, hit, normal);
   vec2 weightsDx = vec2(dot(p.positionDx, gradientB), dot(p.positionDx, gradientC));
   vec2 weightsDy = vec2(dot(p.positionDy, gradientB), dot(p.positionDy, gradientC));
 
@@ -52,12 +38,18 @@ SurfacePoint makeSurfacePoint(ivec2 pixel, uvec4 corners, vec3 origin, vec3 dire
   p.uv0Dx = toB * weightsDx.x + toC * weightsDx.y;
   p.uv0Dy = toB * weightsDy.x + toC * weightsDy.y;
   p.tangent = mat3x4(readVertex(corners.x, 2), readVertex(corners.y, 2), readVertex(corners.z, 2)) * hit.weights;
+  p.color = vec4(1.0f);
+#ifdef COLORS
   p.color = mat3x4(readVertex(corners.x, 3), readVertex(corners.y, 3), readVertex(corners.z, 3)) * hit.weights;
+#endif
+  p.uv1 = p.uv1Dx = p.uv1Dy = vec2(0.0f);
+#ifdef SECOND_UV
   a = readVertex(corners.x, 4).xy;
   toB = readVertex(corners.y, 4).xy - a;
   toC = readVertex(corners.z, 4).xy - a;
   p.uv1 = a + toB * hit.weights.y + toC * hit.weights.z;
   p.uv1Dx = toB * weightsDx.x + toC * weightsDx.y;
   p.uv1Dy = toB * weightsDy.x + toC * weightsDy.y;
+#endif
   return p;
 }

@@ -11,6 +11,7 @@
 #include "raster/surface_shading.glsl"
 #include "virtual_object/exact_ray.glsl"
 #include "virtual_object/exact_point.glsl"
+#include "virtual_object/pixel_ray.glsl"
 
 flat in uint v_triangle;
 
@@ -47,7 +48,7 @@ void main() {
 #ifdef OVERLAY
   if (!hit.isHit || (!hit.isFront && (corners.w & 1u) != 0u)) discard;
 #endif
-  SurfacePoint p = makeSurfacePoint(pixel, corners, origin.xyz, direction.xyz, hit, e1, e2);
+  SurfacePoint p = makeSurfacePoint(readPixelRay(pixel), corners, hit, e1, e2);
   vec4 base = readBaseColor(p);
   ShadedPoint shaded = shadePoint(p, shadingNormal(p), base.rgb);
   bool isInside = (texelFetch(u_parentIds, pixel, 0).x & kInsideBit) != 0u;

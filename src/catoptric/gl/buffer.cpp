@@ -63,6 +63,13 @@ void VertexArray::setAttribute(unsigned location, const Buffer& buffer, int comp
   glVertexAttribPointer(location, components, GL_FLOAT, GL_FALSE, 0, nullptr);
 }
 
+void VertexArray::setUnsignedAttribute(unsigned location, const Buffer& buffer) {
+  glBindVertexArray(id_);
+  glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
+  glEnableVertexAttribArray(location);
+  glVertexAttribIPointer(location, 1, GL_UNSIGNED_INT, 0, nullptr);
+}
+
 void VertexArray::setIndices(const Buffer& buffer) {
   glBindVertexArray(id_);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer.id());

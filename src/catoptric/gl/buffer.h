@@ -37,7 +37,7 @@ class Buffer {
 /// Offsets of uniform buffer ranges must be multiples of this.
 [[nodiscard]] std::size_t uniformBufferAlignment();
 
-/// Which buffer feeds which vertex attribute (all tightly packed floats).
+/// Which buffer feeds which vertex attribute (tightly packed).
 class VertexArray {
  public:
   VertexArray();
@@ -45,7 +45,8 @@ class VertexArray {
   VertexArray(const VertexArray&) = delete;
   VertexArray& operator=(const VertexArray&) = delete;
 
-  void setAttribute(unsigned location, const Buffer& buffer, int components);
+  void setAttribute(unsigned location, const Buffer& buffer, int components);  ///< floats
+  void setUnsignedAttribute(unsigned location, const Buffer& buffer);          ///< one 32-bit integer each
   void setIndices(const Buffer& buffer);
   void bind() const;
 

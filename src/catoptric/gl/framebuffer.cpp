@@ -68,6 +68,12 @@ void Framebuffer::readPixels(int attachment, std::span<uvec2> out) const {
   glReadPixels(0, 0, width_, height_, GL_RG_INTEGER, GL_UNSIGNED_INT, out.data());
 }
 
+void Framebuffer::readPixels(int attachment, const Scissor& pixels, std::span<uvec2> out) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
+  glReadBuffer(GL_COLOR_ATTACHMENT0 + unsigned(attachment));
+  glReadPixels(pixels.x, pixels.y, pixels.width, pixels.height, GL_RG_INTEGER, GL_UNSIGNED_INT, out.data());
+}
+
 void Framebuffer::copyToCubeFace(int attachment, const Texture& cube, int face) const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
   glReadBuffer(GL_COLOR_ATTACHMENT0 + unsigned(attachment));

@@ -11,6 +11,11 @@
 
 namespace catoptric::gl {
 
+/// Rectangle in pixels, origin at the lower left corner.
+struct Scissor {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
 /// Attaches textures it does not own.
 class Framebuffer {
  public:
@@ -29,6 +34,9 @@ class Framebuffer {
   void readPixels(int attachment, std::span<vec4> out) const;
   void readPixels(int attachment, std::span<uvec2> out) const;
 
+  /// The same for some pixels, row by row.
+  void readPixels(int attachment, const Scissor& pixels, std::span<uvec2> out) const;
+
   /// Copies a colour attachment into level 0 of a face of a cube texture of the same size and format.
   void copyToCubeFace(int attachment, const Texture& cube, int face) const;
 
@@ -45,11 +53,6 @@ struct DrawState {
   bool depthWrite = true;
   Cull cull = Cull::None;
   bool blendPremultiplied = false;  ///< source + destination * (1 - source alpha)
-};
-
-/// Rectangle in pixels, origin at the lower left corner.
-struct Scissor {
-  int x = 0, y = 0, width = 0, height = 0;
 };
 
 void setDrawState(const DrawState& state);

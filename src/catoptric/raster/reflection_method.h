@@ -14,6 +14,7 @@ struct MethodCounters {
   std::uint64_t virtualVertices = 0;
   std::uint64_t culledVertices = 0;
   std::uint64_t virtualTriangles = 0;
+  std::uint64_t culledTriangles = 0;  ///< in which no pixel has its centre, or that turn their back
   std::uint64_t fragmentTests = 0;
   double virtualVerticesMs = 0;
   std::uint64_t lookedUpVertices = 0;  ///< of morphing: searched in the octrees, the others were kept

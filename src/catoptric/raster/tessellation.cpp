@@ -111,15 +111,23 @@ struct PartPieces {
 
 class PartCutter {
  public:
+  /// `mirror`: triangles that turn their back to all of it are left out; may be null.
   PartCutter(const scene::WorldGeometry& geometry, const scene::Part& part, const ReflectorDistance& distance,
-             float k, std::size_t budget, std::atomic<std::size_t>& made)
-      : geometry_(geometry), part_(part), distance_(distance), k_(k), budget_(budget), made_(made) {}
+             const scene::Reflector* mirror, float k, std::size_t budget, std::atomic<std::size_t>& made)
+      : geometry_(geometry),
+        part_(part),
+        distance_(distance),
+        mirror_(part.isSeenFromBehind ? nullptr : mirror),
+        k_(k),
+        budget_(budget),
+        made_(made) {}
 
   PartPieces cut() {
     pieces_.reserve(part_.vertexCount * 2);
     for (std::uint32_t v = part_.firstVertex; v < part_.firstVertex + part_.vertexCount; ++v) copyVertex(v);
     for (std::uint32_t i = 0; i + 2 < part_.indexCount; i += 3) {
       const std::uint32_t* corner = &geometry_.indices[part_.firstIndex + i];
+      if (mirror_ && turnsAway(corner)) continue;
       cutTriangle(
           {corner[0] - part_.firstVertex, corner[1] - part_.firstVertex, corner[2] - part_.firstVertex},
           (part_.firstIndex + i) / 3);
@@ -132,6 +140,15 @@ class PartCutter {
 
  private:
   using Corners = std::array<std::uint32_t, 3>;
+
+  /// Does the reflector's bounding sphere lie behind the triangle's plane?
+  [[nodiscard]] bool turnsAway(const std::uint32_t* corner) const {
+    const dvec3 a(geometry_.positions[corner[0]]), b(geometry_.positions[corner[1]]),
+        c(geometry_.positions[corner[2]]);
+    const dvec3 normal = glm::cross(b - a, c - a);
+    constexpr double kRounding = 1e-5;
+    return glm::dot(normal, mirror_->centre - a) < -(1.0 + kRounding) * mirror_->radius * glm::length(normal);
+  }
 
   void copyVertex(std::uint32_t v) {
     pieces_.positions.push_back(geometry_.positions[v]);
@@ -254,6 +271,7 @@ class PartCutter {
   const scene::WorldGeometry& geometry_;
   const scene::Part& part_;
   const ReflectorDistance& distance_;
+  const scene::Reflector* mirror_;
   float k_;
   std::size_t budget_;
   std::atomic<std::size_t>& made_;
@@ -304,6 +322,7 @@ TessellatedObjects tessellateForReflector(const scene::WorldGeometry& geometry, 
   k = std::min(k, 0.5);
   const double asked = k;
 
+  const scene::Reflector* mirror = options.isSeenDirectly ? &geometry.reflectors[reflector] : nullptr;
   std::size_t uncut = 0;
   for (std::uint32_t p = 0; p < geometry.parts.size(); ++p)
     if (p != own) uncut += geometry.parts[p].indexCount / 3;
@@ -315,7 +334,7 @@ TessellatedObjects tessellateForReflector(const scene::WorldGeometry& geometry, 
     core::parallelFor(geometry.parts.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t p = begin; p < end; ++p)
         if (p != own)
-          pieces[p] = PartCutter(geometry, geometry.parts[p], distance, float(k), budget, made).cut();
+          pieces[p] = PartCutter(geometry, geometry.parts[p], distance, mirror, float(k), budget, made).cut();
     });
     if (made.load() <= budget) break;
   }

@@ -39,8 +39,11 @@ struct TessellatedObjects {
 };
 
 struct TessellationOptions {
-  double maxErrorPx = 0.5;            ///< aim: how far the drawn image of an edge may be from the true one
-  double reflectorDiameterPx = 700;   ///< at which size of the reflector on the screen (bounding sphere)
+  double maxErrorPx = 0.5;           ///< aim: how far the drawn image of an edge may be from the true one
+  double reflectorDiameterPx = 700;  ///< at which size of the reflector on the screen (bounding sphere)
+  /// No flat mirror stands between the reflector and the objects: triangles that turn their back to all of it
+  /// are left out.
+  bool isSeenDirectly = false;
   std::size_t maxTriangles = 600000;  ///< budget; when hit, k is raised and one warning says so
 };
 

@@ -4,6 +4,7 @@
 // nothing.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -16,17 +17,19 @@ namespace catoptric::raster {
 class VirtualObjectPass {
  public:
   /// `objects` must outlive the pass.
-  explicit VirtualObjectPass(const TessellatedObjects& objects)
-      : objects_(objects), streams_(objects), blendedStreams_(objects) {}
+  explicit VirtualObjectPass(const TessellatedObjects& objects) : objects_(objects) {}
 
   /// Arguments as of selectVirtualTriangles(); `view` says how virtual vertices get to the screen.
   void draw(FrameContext& frame, const SurfaceView& view, std::span<const vec3> virtualPositions,
             std::span<const VertexKind> kinds, std::span<const vec3> reflectionPoints,
             std::span<const vec3> scenePoints, Level& target);
+  /// Draws triangles selected by the caller, with corners from objects.indices.
+  void drawSelected(FrameContext& frame, const SurfaceView& view, std::span<const vec3> virtualPositions,
+                    const VirtualTriangles& triangles, Level& target);
 
  private:
   const TessellatedObjects& objects_;
-  VertexStreams streams_, blendedStreams_;
+  std::unique_ptr<VertexStreams> streams_, blendedStreams_;  ///< made when first needed
   VirtualTriangles triangles_;
   std::vector<DrawRange> opaque_, blended_, sorted_;
   std::vector<std::uint32_t> sortedIndices_;

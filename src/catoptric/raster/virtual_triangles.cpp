@@ -8,9 +8,12 @@
 #include <cassert>
 #include <cmath>
 
+#include "catoptric/core/parallel.h"
+
 namespace catoptric::raster {
 namespace {
 
+constexpr std::size_t kTrianglesPerTask = 4096;
 constexpr float kEdgeOn = 0.02f;  // sine below which a face says nothing about its orientation
 
 /// +1 where all three points lie in front of their triangle's plane, -1 behind, 0 mixed or nearly in it.
@@ -38,33 +41,59 @@ bool isInsideOut(const vec3 q[3], const vec3 w[3], const vec3 j[3], const vec3& 
   return image * float(real) > 0.0f;
 }
 
+/// What tells whether a triangle is kept, by vertex.
+struct Judge {
+  std::span<const vec3> scenePoints, virtualPositions, reflectionPoints;
+  std::span<const VertexKind> kinds;
+  vec3 eye;
+
+  [[nodiscard]] bool keeps(const std::uint32_t v[3]) const {
+    const VertexKind a = kinds[v[0]], b = kinds[v[1]], c = kinds[v[2]];
+    if (a == VertexKind::None || b == VertexKind::None || c == VertexKind::None) return false;
+    if (a != VertexKind::Reflected && b != VertexKind::Reflected && c != VertexKind::Reflected) return false;
+    const vec3 q[3] = {scenePoints[v[0]], scenePoints[v[1]], scenePoints[v[2]]};
+    const vec3 w[3] = {virtualPositions[v[0]], virtualPositions[v[1]], virtualPositions[v[2]]};
+    const vec3 j[3] = {reflectionPoints[v[0]], reflectionPoints[v[1]], reflectionPoints[v[2]]};
+    return !isInsideOut(q, w, j, eye);
+  }
+};
+
 }  // namespace
+
+void markVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
+                          std::span<const vec3> virtualPositions, std::span<const VertexKind> kinds,
+                          std::span<const vec3> reflectionPoints, VirtualTriangles& out,
+                          std::span<const vec3> scenePoints) {
+  if (scenePoints.empty()) scenePoints = objects.positions;
+  assert(scenePoints.size() == objects.positions.size());
+  assert(virtualPositions.size() == objects.positions.size() && kinds.size() == objects.positions.size());
+  assert(reflectionPoints.size() == objects.positions.size());
+  const Judge judge{scenePoints, virtualPositions, reflectionPoints, kinds, vec3(eye)};
+  out.isKept.resize(objects.indices.size() / 3);
+  core::parallelFor(out.isKept.size(), kTrianglesPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) out.isKept[t] = judge.keeps(&objects.indices[3 * t]);
+  });
+}
 
 void selectVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
                             std::span<const vec3> virtualPositions, std::span<const VertexKind> kinds,
                             std::span<const vec3> reflectionPoints, VirtualTriangles& out,
                             std::span<const vec3> scenePoints) {
-  if (scenePoints.empty()) scenePoints = objects.positions;
-  assert(scenePoints.size() == objects.positions.size());
-  assert(virtualPositions.size() == objects.positions.size() && kinds.size() == objects.positions.size());
-  assert(reflectionPoints.size() == objects.positions.size());
+  markVirtualTriangles(objects, eye, virtualPositions, kinds, reflectionPoints, out, scenePoints);
+  gatherVirtualTriangles(objects, objects.indices, {}, out);
+}
+
+void gatherVirtualTriangles(const TessellatedObjects& objects, std::span<const std::uint32_t> indices,
+                            std::span<const std::uint8_t> isWanted, VirtualTriangles& out) {
+  assert(indices.size() == objects.indices.size());
   out.indices.clear();
   out.parts.clear();
-  const vec3 eyeF(eye);
   for (const TessellatedPart& part : objects.parts) {
+    if (!isWanted.empty() && !isWanted[part.part]) continue;
     TessellatedPart run = part;
     run.firstIndex = std::uint32_t(out.indices.size());
-    for (std::uint32_t i = part.firstIndex; i < part.firstIndex + part.indexCount; i += 3) {
-      const std::uint32_t v[3] = {objects.indices[i], objects.indices[i + 1], objects.indices[i + 2]};
-      const VertexKind a = kinds[v[0]], b = kinds[v[1]], c = kinds[v[2]];
-      if (a == VertexKind::None || b == VertexKind::None || c == VertexKind::None) continue;
-      if (a != VertexKind::Reflected && b != VertexKind::Reflected && c != VertexKind::Reflected) continue;
-      const vec3 q[3] = {scenePoints[v[0]], scenePoints[v[1]], scenePoints[v[2]]};
-      const vec3 w[3] = {virtualPositions[v[0]], virtualPositions[v[1]], virtualPositions[v[2]]};
-      const vec3 j[3] = {reflectionPoints[v[0]], reflectionPoints[v[1]], reflectionPoints[v[2]]};
-      if (isInsideOut(q, w, j, eyeF)) continue;
-      out.indices.insert(out.indices.end(), v, v + 3);
-    }
+    for (std::size_t i = part.firstIndex; i < part.firstIndex + part.indexCount; i += 3)
+      if (out.isKept[i / 3]) out.indices.insert(out.indices.end(), &indices[i], &indices[i] + 3);
     run.indexCount = std::uint32_t(out.indices.size()) - run.firstIndex;
     out.parts.push_back(run);
   }

@@ -21,6 +21,7 @@ enum class VertexKind : std::uint8_t { None, Reflected, DoublyVirtual };
 struct VirtualTriangles {
   std::vector<std::uint32_t> indices;
   std::vector<TessellatedPart> parts;
+  std::vector<std::uint8_t> isKept;  ///< by triangle of the TessellatedObjects
 };
 
 /// Drops triangles with a None vertex, those without any Reflected vertex, and those that are turned inside
@@ -33,5 +34,16 @@ void selectVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
                             std::span<const vec3> virtualPositions, std::span<const VertexKind> kinds,
                             std::span<const vec3> reflectionPoints, VirtualTriangles& out,
                             std::span<const vec3> scenePoints = {});
+
+/// Sets out.isKept alone.
+void markVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
+                          std::span<const vec3> virtualPositions, std::span<const VertexKind> kinds,
+                          std::span<const vec3> reflectionPoints, VirtualTriangles& out,
+                          std::span<const vec3> scenePoints = {});
+
+/// Fills the rest: the triangles of `out.isKept` with corners from `indices`, which run parallel to
+/// objects.indices; only of the parts for which `isWanted` is set, of all if it is empty.
+void gatherVirtualTriangles(const TessellatedObjects& objects, std::span<const std::uint32_t> indices,
+                            std::span<const std::uint8_t> isWanted, VirtualTriangles& out);
 
 }  // namespace catoptric::raster

@@ -107,7 +107,8 @@ RasterFrame::RasterFrame(gl::Context& context, const scene::Scene& scene,
       geometry_(geometry),
       scene_(scene, geometry, environment),
       primary_(surfaces_),
-      virtual_(virtual_object::Solver::Refined) {
+      virtual_(virtual_object::Solver::Refined, hits_),
+      exact_(hits_) {
   if (geometry.reflectors.size() >= 0xffffu)
     throw core::Error("renderer.reflectors", "the scene has more than 65534 mirrors", {},
                       "use --reflector NAME to pick some");
@@ -117,6 +118,7 @@ void RasterFrame::updateGeometry(std::span<const std::uint32_t> movedParts) {
   scene_.updateGeometry(movedParts);
   nearPlane_ = 0;
   primary_.geometryChanged();
+  hits_.geometryChanged();
   for (raster::ReflectionMethod* method : methods_) method->geometryChanged();
 }
 
@@ -213,6 +215,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   frame.timings.primaryMs += millisecondsSince(start);
 
   lastChain_ = 0;
+  hits_.beginFrame();
   for (raster::ReflectionMethod* method : methods_)
     if (method != &morphing_ || options.method == Method::Morphing) method->prepare(context);
   std::vector<raster::Chain> parents{raster::makeEyeChain()};
@@ -254,6 +257,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   frame.timings.reflectionMs = frame.timings.totalMs - frame.timings.primaryMs;
   frame.counters.virtualVertices += counters.virtualVertices;
   frame.counters.culledVertices += counters.culledVertices;
+  frame.counters.culledTriangles += counters.culledTriangles;
   frame.counters.virtualTriangles += counters.virtualTriangles;
   frame.counters.fragmentTests += counters.fragmentTests;
   frame.timings.warpMs += counters.warpMs;

@@ -50,6 +50,7 @@ class RasterFrame {
   raster::PrimaryPass primary_;
   raster::ComposePass compose_;
   planar_mirror::PlanarMirrorMethod planar_;
+  virtual_object::HitShading hits_;
   virtual_object::VirtualObjectMethod virtual_;
   virtual_object::ExactMethod exact_;
   environment_map::EnvironmentMapMethod environment_;

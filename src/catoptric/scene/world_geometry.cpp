@@ -278,6 +278,9 @@ WorldGeometry makeWorldGeometry(const Scene& scene, const ReflectorOptions& opti
   PartWriter writer(world);
   for (const WorldPrimitive& primitive : primitives)
     emitPrimitive(scene, primitive, names, keep, options, writer, world);
+  for (Part& part : world.parts)
+    part.isSeenFromBehind =
+        part.material >= 0 && scene.materials[std::size_t(part.material)].isSeenFromBehind();
   markShell(scene, world);
   return world;
 }

@@ -59,6 +59,7 @@ struct Part {
   std::uint32_t primitive = 0;            ///< of that instance's mesh
   std::uint32_t reflector = core::kNoId;  ///< index into WorldGeometry::reflectors
   bool shell = false;                     ///< shell of the room, see methods.md section 6
+  bool isSeenFromBehind = false;          ///< Material::isSeenFromBehind()
 };
 
 struct WorldGeometry {

@@ -38,11 +38,13 @@ VirtualObjectMethod::Prepared& VirtualObjectMethod::prepareReflector(const raste
     flipped = facing < 0;
   }
   const double size = raster::findTessellationSize(reflector, drawEye, frame.camera);
-  std::unique_ptr<Prepared>& slot = prepared_[{*chain.curved, flipped, size}];
+  const bool isSeenDirectly = chain.drawFromWorld == dmat4(1.0) && solver_ != Solver::Explosion;
+  std::unique_ptr<Prepared>& slot = prepared_[{*chain.curved, flipped, isSeenDirectly, size}];
   if (!slot || slot->maxErrorPx != frame.maxErrorPx)
     slot = std::make_unique<Prepared>(
         world, *chain.curved, flipped,
-        raster::TessellationOptions{.maxErrorPx = frame.maxErrorPx, .reflectorDiameterPx = size});
+        raster::TessellationOptions{
+            .maxErrorPx = frame.maxErrorPx, .reflectorDiameterPx = size, .isSeenDirectly = isSeenDirectly});
   return *slot;
 }
 
@@ -108,9 +110,50 @@ void VirtualObjectMethod::drawObjects(raster::FrameContext& frame, const raster:
   const auto& reflectors = frame.scene.geometry().reflectors;
   if (chain.last != *chain.curved)
     raster::clipAtLastMirror(reflectors[chain.last], chain.last, reflectors[*chain.curved].centre, view);
+  if (usesNumbers(chain)) {
+    drawNumbered(frame, chain, view, p, target);
+    return;
+  }
   const bool isMirrored = chain.drawFromWorld != dmat4(1.0);
   p.pass.draw(frame, view, p.virtualPositions, p.kinds, p.reflectionPoints,
               isMirrored ? std::span<const vec3>(p.scenePoints) : std::span<const vec3>(), target);
+}
+
+void VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, const raster::Chain& chain,
+                                       const raster::SurfaceView& view, Prepared& p, raster::Level& target) {
+  const scene::WorldGeometry& world = frame.scene.geometry();
+  if (!p.numbered) {
+    p.numbered = std::make_unique<NumberedTriangles>(p.objects);
+    for (std::uint32_t part = 0; part < world.parts.size(); ++part) {
+      const bool isPlain = (findCoverFlags(frame.scene, part) & (kCoverMasked | kCoverBlended)) == 0;
+      p.isNumbered.push_back(isPlain ? 1 : 0);
+      p.isDrawn.push_back(isPlain ? 0 : 1);
+    }
+  }
+  raster::markVirtualTriangles(p.objects, view.drawEye, p.virtualPositions, p.kinds, p.reflectionPoints,
+                               triangles_);
+  const PictureView picture{mat4(view.clipFromDraw), view.parent->widthPx, view.parent->heightPx,
+                            view.windingFlipped};
+  frame.counters.culledTriangles += dropUnseenTriangles(p.objects, world, picture, chain.bounds,
+                                                        p.virtualPositions, screen_, triangles_.isKept);
+  raster::gatherVirtualTriangles(p.objects, p.numbered->indices(), p.isNumbered, triangles_);
+  frame.counters.virtualTriangles += triangles_.indices.size() / 3;
+  ranges_.clear();
+  for (const raster::TessellatedPart& part : triangles_.parts)
+    if (part.indexCount > 0) ranges_.push_back({part.part, part.firstIndex, part.indexCount});
+
+  shading_.prepare(frame.scene, *view.parent);
+  shading_.beginHits(chain.bounds);
+  p.numbered->draw(frame, view, numberProgram_, p.virtualPositions, triangles_.indices, ranges_);
+  shading_.readHits(chain.bounds, hits_);
+  findPartRects(world, chain.bounds, hits_, frame.parentIds, view.parent->widthPx, chain.parentWord(),
+                rects_);
+  shading_.shadeVirtual(frame, chain, *view.parent, target, false, rects_.inner);
+  shading_.shadeVirtual(frame, chain, *view.parent, target, true, rects_.edges);
+
+  raster::gatherVirtualTriangles(p.objects, p.objects.indices, p.isDrawn, triangles_);
+  frame.counters.virtualTriangles += triangles_.indices.size() / 3;
+  if (!triangles_.indices.empty()) p.pass.drawSelected(frame, view, p.virtualPositions, triangles_, target);
 }
 
 void VirtualObjectMethod::render(raster::FrameContext& frame, const raster::Chain& chain,

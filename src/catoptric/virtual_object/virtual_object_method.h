@@ -12,6 +12,7 @@
 #include "catoptric/raster/reflection_method.h"
 #include "catoptric/raster/tessellation.h"
 #include "catoptric/raster/virtual_object_pass.h"
+#include "catoptric/virtual_object/numbered_triangles.h"
 #include "catoptric/virtual_object/reflector_mesh.h"
 #include "catoptric/virtual_object/virtual_object_solver.h"
 
@@ -19,7 +20,8 @@ namespace catoptric::virtual_object {
 
 class VirtualObjectMethod : public raster::ReflectionMethod {
  public:
-  explicit VirtualObjectMethod(Solver solver) : solver_(solver) {}
+  /// `shading` must outlive the method.
+  VirtualObjectMethod(Solver solver, HitShading& shading) : solver_(solver), shading_(shading) {}
   [[nodiscard]] std::string_view name() const override { return "virtual"; }
   [[nodiscard]] bool supports(const raster::Chain& chain) const override {
     return chain.curved.has_value() && !chain.hasSecondCurved && !chain.hasRefractor();
@@ -41,6 +43,8 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     raster::TessellatedObjects objects;
     VertexRuns runs;
     raster::VirtualObjectPass pass;
+    std::unique_ptr<NumberedTriangles> numbered;    ///< made when first needed
+    std::vector<std::uint8_t> isNumbered, isDrawn;  ///< by part: how it is drawn
     std::unique_ptr<VirtualObjectSolver> solver;
     Solver finderOf = Solver::Refined;  ///< whose finder the solver was given
     std::vector<vec3> scenePoints;      ///< vertices mirrored by the planar links behind the curved one
@@ -59,10 +63,26 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   [[nodiscard]] Solver equipSolver(const scene::WorldGeometry& world, std::uint32_t reflector,
                                    Prepared& prepared) const;
 
+  /// Are triangles drawn as numbers, and shaded once a pixel? Not those of the method as published, nor those
+  /// that a flat mirror behind the curved one cuts.
+  [[nodiscard]] bool usesNumbers(const raster::Chain& chain) const {
+    return solver_ == Solver::Refined && chain.last == *chain.curved;
+  }
+  void drawNumbered(raster::FrameContext& frame, const raster::Chain& chain, const raster::SurfaceView& view,
+                    Prepared& prepared, raster::Level& target);
+
   Solver solver_;
+  HitShading& shading_;
+  gl::Program numberProgram_{"virtual_object/virtual_triangle.vert", "virtual_object/virtual_triangle.frag"};
+  raster::VirtualTriangles triangles_;
+  std::vector<raster::DrawRange> ranges_;
+  std::vector<uvec2> hits_;
+  std::vector<vec2> screen_;
+  PartRects rects_;
   raster::MirrorBackgroundPass background_;
-  /// By reflector, whether it is seen from behind, size of the tessellation.
-  std::map<std::tuple<std::uint32_t, bool, double>, std::unique_ptr<Prepared>> prepared_;
+  /// By reflector, whether it is seen from behind, whether it sees the objects directly, size of the
+  /// tessellation.
+  std::map<std::tuple<std::uint32_t, bool, bool, double>, std::unique_ptr<Prepared>> prepared_;
 };
 
 }  // namespace catoptric::virtual_object

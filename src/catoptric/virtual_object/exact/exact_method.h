@@ -25,26 +25,26 @@
 // Source: our own; the fragment's test after Hou 2006 and Liu 2011.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "catoptric/raster/reflection_method.h"
-#include "catoptric/virtual_object/exact/scene_triangles.h"
 #include "catoptric/virtual_object/exact/tile_cover.h"
+#include "catoptric/virtual_object/hit_shading.h"
 
 namespace catoptric::virtual_object {
 
 class ExactMethod : public raster::ReflectionMethod {
  public:
-  ExactMethod();
+  /// `shading` must outlive the method.
+  explicit ExactMethod(HitShading& shading);
   [[nodiscard]] std::string_view name() const override { return "virtual"; }
   [[nodiscard]] bool supports(const raster::Chain& chain) const override { return chain.curved.has_value(); }
   void prepare(raster::FrameContext&) override { raysOf_ = nullptr; }
   void geometryChanged() override {
     tiles_.reset();
-    triangles_.reset();
+    hierarchy_.reset();
   }
   void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
               raster::Level& target) override;
@@ -54,50 +54,26 @@ class ExactMethod : public raster::ReflectionMethod {
   [[nodiscard]] const RayImages& rays() const { return rays_; }
 
  private:
-  /// Rays and hits of a picture of one size.
-  struct Targets {
-    Targets(int width, int height);
-    int widthPx, heightPx;
-    gl::Texture origins, directions, hits, depth;
-    gl::Framebuffer rays, hitTests;
-  };
-  void prepareScene(const raster::FrameContext& frame, const raster::Level& parent);
+  void prepareScene(const raster::FrameContext& frame);
   void readRays(const raster::Level& parent);
   [[nodiscard]] CoverQuery makeQuery(const raster::FrameContext& frame, const raster::Chain& chain) const;
   [[nodiscard]] bool showsBack(const scene::WorldGeometry& world, const scene::Part& part,
                                const CoverQuery& query) const;
-  void bindInputs(gl::Program& program, const raster::Level& parent, const raster::Chain& chain) const;
-  enum class PartPass { MaskedHits, Shade, Blend };
-  /// Rectangles of one part after another, each with the program for its material.
-  void drawParts(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
-                 PartPass pass, std::span<const CoverRect> rects);
-  [[nodiscard]] gl::Program& findProgram(PartPass pass, unsigned textureBits);
   void drawHits(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
                 const CoverQuery& query);
   void shadeHits(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
                  const raster::Level& target);
   void drawBlended(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
                    raster::Level& target);
-  /// Uploads rectangles; `drawn()` of them are drawn by index afterwards.
-  void uploadRects(std::span<const CoverRect> rects, bool withItems);
-  static void drawRects(std::size_t first, std::size_t count);
 
+  HitShading& shading_;
   raster::MirrorBackgroundPass background_;
-  gl::Program rayProgram_, hitProgram_;
-  /// Passes that read a material's textures: a program for each set of textures, made when first used.
-  std::array<std::array<std::unique_ptr<gl::Program>, 32>, 3> partPrograms_;
-  gl::VertexArray nothing_, rectArray_;
-  gl::Buffer rectCorners_, rectIndices_;
-  std::size_t indexedRects_ = 0;
-  std::vector<vec4> corners_;
-  std::vector<std::uint32_t> indices_;
-  std::unique_ptr<SceneTriangles> triangles_;
+  gl::Program hitProgram_;
+  std::unique_ptr<TriangleHierarchy> hierarchy_;
   std::optional<TileCover> tiles_;
-  std::unique_ptr<Targets> targets_;
-  const raster::Level* raysOf_ = nullptr;  ///< level whose rays are read
+  const raster::Level* raysOf_ = nullptr;  ///< level whose rays were read
   RayImages rays_;
   Cover cover_;
-  float depthFromDistance_ = 1;
 };
 
 }  // namespace catoptric::virtual_object

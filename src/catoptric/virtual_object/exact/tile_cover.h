@@ -27,14 +27,12 @@
 #include "catoptric/core/seen.h"
 #include "catoptric/geometry/triangle_hierarchy.h"
 #include "catoptric/virtual_object/exact/ray_shaft.h"
+#include "catoptric/virtual_object/hit_shading.h"
 
 namespace catoptric::virtual_object {
 
 using geometry::HierarchyTriangle;
 using geometry::TriangleHierarchy;
-
-/// HierarchyTriangle::flags.
-enum CoverFlag : std::uint32_t { kCoverSingleSided = 1, kCoverMasked = 2, kCoverBlended = 4 };
 
 /// Rays of a picture's mirror pixels, bottom row first as on the GPU. `words`: ids of
 /// raster/level_pixels.glsl.
@@ -42,12 +40,6 @@ struct RayImages {
   int widthPx = 0, heightPx = 0;
   std::vector<vec4> origins, directions;
   std::vector<uvec2> words;
-};
-
-/// Pixels [x, x + width) x [y, y + height) and what may be seen there.
-struct CoverRect {
-  std::uint16_t x = 0, y = 0, width = 0, height = 0;
-  std::uint32_t item = 0;  ///< triangle, or part
 };
 
 struct CoverQuery {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "catoptric/virtual_object/exact/scene_triangles.h"
+#include "catoptric/virtual_object/scene_triangles.h"
 
 #include <fmt/format.h>
 
@@ -7,33 +7,11 @@
 #include <vector>
 
 #include "catoptric/core/error.h"
-#include "catoptric/virtual_object/exact/tile_cover.h"
 
 namespace catoptric::virtual_object {
 namespace {
 
 constexpr std::size_t kVertexTexels = 5;
-
-std::uint32_t flagsOf(const raster::SceneBuffers& scene, std::uint32_t part) {
-  const scene::Material& material = scene.material(scene.geometry().parts[part].material);
-  return (material.isSeenFromBehind() ? 0u : kCoverSingleSided) |
-         (material.alphaMode == scene::AlphaMode::Mask ? kCoverMasked : 0u) |
-         (scene.isBlended(part) ? kCoverBlended : 0u);
-}
-
-std::vector<geometry::HierarchyTriangle> listTriangles(const raster::SceneBuffers& scene) {
-  const scene::WorldGeometry& world = scene.geometry();
-  std::vector<geometry::HierarchyTriangle> triangles;
-  triangles.reserve(world.triangleCount());
-  for (std::uint32_t p = 0; p < world.parts.size(); ++p) {
-    const scene::Part& part = world.parts[p];
-    const std::uint32_t flags = flagsOf(scene, p);
-    for (std::uint32_t i = part.firstIndex; i < part.firstIndex + part.indexCount; i += 3)
-      triangles.push_back({world.positions[world.indices[i]], world.positions[world.indices[i + 1]],
-                           world.positions[world.indices[i + 2]], i / 3, p, flags});
-  }
-  return triangles;
-}
 
 /// Rows of a width that every GL takes, filled up with zeros.
 template <class Texel>
@@ -45,7 +23,7 @@ std::unique_ptr<gl::Texture> makeTable(gl::Format format, std::vector<Texel>& te
     throw core::Error("gl.texture_size",
                       fmt::format("the scene's triangles need a texture of {}x{}, this GL takes {} at most",
                                   width, height, gl::maxTextureSize()),
-                      {}, "use --solver refined");
+                      {}, "use --solver explosion");
   texels.resize(std::size_t(width) * height);
   auto texture = std::make_unique<gl::Texture>(gl::TextureKind::Flat, format, width, int(height), 1, 1,
                                                gl::SamplerState{});
@@ -55,13 +33,27 @@ std::unique_ptr<gl::Texture> makeTable(gl::Format format, std::vector<Texel>& te
 
 }  // namespace
 
-SceneTriangles::SceneTriangles(const raster::SceneBuffers& scene) : hierarchy_(listTriangles(scene)) {
+std::uint32_t findCoverFlags(const raster::SceneBuffers& scene, std::uint32_t part) {
+  const scene::Material& material = scene.material(scene.geometry().parts[part].material);
+  return (material.isSeenFromBehind() ? 0u : kCoverSingleSided) |
+         (material.alphaMode == scene::AlphaMode::Mask ? kCoverMasked : 0u) |
+         (scene.isBlended(part) ? kCoverBlended : 0u);
+}
+
+SceneTriangles::SceneTriangles(const raster::SceneBuffers& scene) {
   const scene::WorldGeometry& world = scene.geometry();
   std::vector<uvec4> triangles(world.triangleCount());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const std::uint32_t part = world.triangleParts[i];
     triangles[i] = {world.indices[3 * i], world.indices[3 * i + 1], world.indices[3 * i + 2],
-                    part * 4u + (flagsOf(scene, part) & kCoverSingleSided)};
+                    part * 4u + (findCoverFlags(scene, part) & kCoverSingleSided)};
+  }
+  for (const scene::Part& part : world.parts) {
+    unsigned bits = 0;
+    for (std::uint32_t v = part.firstVertex; v < part.firstVertex + part.vertexCount; ++v)
+      bits |=
+          (world.colors[v] != vec4(1) ? kWithColors : 0u) | (world.uv1[v] != vec2(0) ? kWithSecondUv : 0u);
+    attributes_.push_back(bits);
   }
   triangles_ = makeTable(gl::Format::Rgba32Ui, triangles);
   std::vector<vec4> vertices(kVertexTexels * world.positions.size());
