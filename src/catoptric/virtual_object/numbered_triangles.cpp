@@ -13,6 +13,7 @@ namespace catoptric::virtual_object {
 namespace {
 
 constexpr int kTileEdge = 16;
+constexpr float kSnap = 1.0f / 32;  // rasterizers round corners to 1/16 of a pixel at worst, most to 1/256
 constexpr std::size_t kVerticesPerTask = 16384, kTrianglesPerTask = 4096;
 
 /// Pixels of one part within a tile.
@@ -31,17 +32,30 @@ void addPixel(std::vector<Extent>& extents, std::uint32_t part, int x, int y) {
   extents.push_back({part, x, y, x, y});
 }
 
-/// Has a pixel of the rectangle its centre in the triangle's box, and does its front face the eye (`facing`:
-/// 1 or -1 by winding, 0: either side will do)? True for a triangle with a NaN.
+/// Is the point outside of a triangle whose corners may be `kSnap` away from where they are said to be?
+/// `turn`: the sign of its area.
+bool isOutside(const std::array<vec2, 3>& p, float turn, const vec2& point) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const vec2 edge = p[(k + 1) % 3] - p[k], offset = point - p[k];
+    const float slack = 2.0f * kSnap * (std::abs(edge.x) + std::abs(edge.y) + kSnap);
+    if ((edge.x * offset.y - edge.y * offset.x) * turn < -slack) return true;
+  }
+  return false;
+}
+
+/// Has a pixel of the rectangle its centre in the triangle, and does its front face the eye (`facing`: 1 or
+/// -1 by winding, 0: either side will do)? Where several have theirs in its box: true. True for a NaN, too.
 bool mayBeSeen(const std::array<vec2, 3>& p, float facing, const vec2& lower, const vec2& upper) {
   if (std::isnan(p[0].x + p[1].x + p[2].x)) return true;
-  constexpr float kSnap = 1.0f / 64;  // rasterizers round corners to 1/16 of a pixel at worst, most to 1/256
+  const vec2 a = p[1] - p[0], b = p[2] - p[0];
+  const float area = a.x * b.y - a.y * b.x;
+  if (area * facing < 0.0f) return false;
   const vec2 least = glm::max(glm::min(glm::min(p[0], p[1]), p[2]) - kSnap, lower);
   const vec2 most = glm::min(glm::max(glm::max(p[0], p[1]), p[2]) + kSnap, upper);
-  // Pixel k has its centre at k + 0.5: is there one between?
-  if (std::floor(most.x - 0.5f) < least.x - 0.5f || std::floor(most.y - 0.5f) < least.y - 0.5f) return false;
-  const vec2 a = p[1] - p[0], b = p[2] - p[0];
-  return !((a.x * b.y - a.y * b.x) * facing < 0.0f);
+  // Pixel k has its centre at k + 0.5.
+  const vec2 first = glm::ceil(least - 0.5f), last = glm::floor(most - 0.5f);
+  if (last.x < first.x || last.y < first.y) return false;
+  return first != last || !isOutside(p, area < 0.0f ? -1.0f : 1.0f, first + 0.5f);
 }
 
 /// To pixels; NaN before the eye's plane.

@@ -126,8 +126,8 @@ TEST(NumberedTriangles, WhatIsDroppedShowsNowhere) {
         EXPECT_TRUE(crumbs.isKept[t] || !shows);
       }
       EXPECT_EQ(kept + dropped, crumbs.isKept.size());
-      EXPECT_GT(seen, 300u);
-      EXPECT_LT(kept, 3 * seen) << "most of what shows nowhere is dropped";
+      EXPECT_GT(seen, 100u);
+      EXPECT_LT(kept, 2 * seen) << "most of what shows nowhere is dropped";
     }
 }
 
@@ -157,7 +157,8 @@ TEST(NumberedTriangles, RectanglesHoldEachPartsPixels) {
           ASSERT_TRUE(x >= bounds.x && y >= bounds.y && x < bounds.x + 70 && y < bounds.y + 41);
           const std::size_t i = std::size_t(y - bounds.y) * 70 + std::size_t(x - bounds.x);
           if (hits[i].x != 0 && world.triangleParts[hits[i].x - 1] == r.item) ++covered[i];
-          if (list == &rects.inner) EXPECT_EQ(ids[std::size_t(y) * kWidth + std::size_t(x)].y, 7u);
+          const bool isOfMirror = ids[std::size_t(y) * kWidth + std::size_t(x)].y == 7;
+          EXPECT_TRUE(isOfMirror || list == &rects.edges);
         }
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const std::size_t at = (5 + i / 70) * kWidth + 3 + i % 70;
