@@ -45,10 +45,13 @@ void declareZexels(Arguments& arguments, depth_reflection_map::ZexelOptions& opt
       "--zexel-memory", "BYTES", "Keep reference images up to this, as in 512M; default 512M",
       [&](const std::string& text) { options.maxBytes = parseByteCount("--zexel-memory", text); });
   arguments.option(
-      "--zexel-without", "A,B", "Switch off: hierarchy, regions, coherence", [&](const std::string& text) {
+      "--zexel-without", "A,B", "Switch off: hierarchy, regions, coherence, continuation",
+      [&](const std::string& text) {
         for (const std::string& word : splitList(text)) {
-          bool* const parts[] = {&options.isHierarchical, &options.skipsRegions, &options.isCoherent};
-          *parts[findWord("--zexel-without", word, {"hierarchy", "regions", "coherence"})] = false;
+          bool* const parts[] = {&options.isHierarchical, &options.skipsRegions, &options.isCoherent,
+                                 &options.continuesSurfaces};
+          *parts[findWord("--zexel-without", word, {"hierarchy", "regions", "coherence", "continuation"})] =
+              false;
         }
       });
 }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "catoptric/depth_reflection_map/exposures.h"
 #include "catoptric/depth_reflection_map/forward_warp.h"
 #include "catoptric/depth_reflection_map/inverse_warp.h"
 #include "catoptric/depth_reflection_map/reference_image.h"
@@ -36,21 +37,22 @@ class DepthReflectionMapMethod : public raster::ReflectionMethod {
   /// The hemispheres behind one side of a mirror.
   struct Window {
     MirrorWindow window;
-    std::map<int, std::vector<dvec3>> shells;
-    WinnerImage lastWinners;  ///< of the frame before, and which references they are of
+    std::map<int, Hemisphere> shells;  ///< see ReferenceKey::shell
+    WinnerImage lastWinners;           ///< of the frame before, and which references they are of
     std::vector<ReferenceKey> lastKeys;
   };
   /// One of the (at most two) reference images nearest to the mirrored eye.
   struct Nearest {
     ReferenceKey key;
     dvec3 centre{0};
-    double distance = 0;
+    double distance = 0;  ///< from the mirrored eye
   };
   Window& findNearest(const raster::FrameContext& frame, const raster::Chain& chain,
                       const dvec3& mirroredEye);
+  void pickPair(const dvec3& eye);
   void warpReferences(raster::FrameContext& frame, const Pinhole& view, const PixelRectangle& rectangle);
-  void keepLastFrame(Window& window);
-  void countCoverage(raster::FrameContext& frame, const raster::Chain& chain) const;
+  void closeExposures(raster::FrameContext& frame, const raster::Chain& chain, const Pinhole& view,
+                      Window& window);
   void resolve(const raster::Chain& chain, const raster::Level& parent, const raster::Level& target);
 
   ZexelOptions options_;
@@ -61,6 +63,7 @@ class DepthReflectionMapMethod : public raster::ReflectionMethod {
   ReferenceCache cache_;
   std::map<std::pair<std::uint32_t, bool>, Window> windows_;  ///< reflector, seen from behind
   std::vector<Nearest> nearest_;
+  double spacing_ = 0;  ///< of the images of its hemisphere
   ForwardWarp warp_;
   InverseWarp inverse_;
   WinnerImage winners_, secondWinners_;

@@ -29,7 +29,8 @@ struct ReferenceImage {
 struct ReferenceKey {
   std::uint32_t reflector = 0;
   bool isFromBehind = false;  ///< of a double-sided mirror
-  int shell = 0, index = 0;
+  int shell = 0;  ///< twice the step of the ladder of radii; odd: of eyes outside of the scene's box
+  int index = 0;
 
   friend bool operator==(const ReferenceKey& a, const ReferenceKey& b) { return a.order() == b.order(); }
   friend bool operator<(const ReferenceKey& a, const ReferenceKey& b) { return a.order() < b.order(); }
