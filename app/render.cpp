@@ -145,6 +145,7 @@ int run(Options options) {
     result = makeFrameJson(frameOptions, renderFrame(renderer, camera, options, format));
     result["files"] = makeFilesJson(options);
   }
+  renderer.saveReferenceImages();
   if (!options.output.json.empty()) {
     Json document = makeDocument("render", &renderer);
     document["scene"] = makeSceneJson(*loaded);

@@ -44,6 +44,8 @@ void declareZexels(Arguments& arguments, depth_reflection_map::ZexelOptions& opt
   arguments.option(
       "--zexel-memory", "BYTES", "Keep reference images up to this, as in 512M; default 512M",
       [&](const std::string& text) { options.maxBytes = parseByteCount("--zexel-memory", text); });
+  arguments.option("--zexel-cache", "FILE", "Reference images are read from there, and new ones added",
+                   setText(options.cacheFile));
   arguments.option(
       "--zexel-without", "A,B", "Switch off: hierarchy, regions, coherence, continuation",
       [&](const std::string& text) {

@@ -23,6 +23,11 @@ class DepthReflectionMapMethod : public raster::ReflectionMethod {
   [[nodiscard]] bool supports(const raster::Chain&) const override { return true; }
   /// Reference images are kept unless hemisphere or size differ.
   void setOptions(const ZexelOptions& options);
+  /// See ReferenceCache. What has moved since the start is in no file.
+  void useCacheFile(const std::filesystem::path& path, std::uint64_t fingerprint) {
+    cache_.useFile(path, fingerprint);
+  }
+  void saveCacheFile() { cache_.save(); }
   void prepare(raster::FrameContext&) override {}
   /// Something moved: all reference images are taken anew.
   void geometryChanged() override {

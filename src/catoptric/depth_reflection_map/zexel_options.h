@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 namespace catoptric::depth_reflection_map {
 
@@ -23,6 +24,7 @@ struct ZexelOptions {
   bool isCoherent = true;         ///< uncovered pixels keep what they showed in the last frame
   bool continuesSurfaces = true;  ///< exposures show what lies behind their edges, continued
   std::size_t maxBytes = std::size_t(512) << 20;  ///< of all reference images together
+  std::string cacheFile{};                        ///< of reference images, read at the start; empty: none
 };
 
 }  // namespace catoptric::depth_reflection_map
