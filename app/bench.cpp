@@ -101,6 +101,7 @@ int run(const Options& options) {
     times = timeInTurn(renderer, camera, frame, options.variants, options.repeats, progress);
   }
 
+  renderer.saveReferenceImages();
   Json document = makeDocument("bench", &renderer);
   if (options.output.json != "-") {
     printData(fmt::format("{}, {}x{}, {} bounces, {} samples, {} frames each, in turn\n{}\n{}\n\n",

@@ -71,6 +71,7 @@ void compareScene(const std::string& source, const Options& options, const std::
     core::Progress progress(viewName, countSteps(view));
     comparisons.push_back(compareView(*loaded, renderer, camera, view, progress));
   }
+  renderer.saveReferenceImages();
   if (document.is_null()) {
     document = makeDocument("compare", &renderer);
     document["command_line"] = command;

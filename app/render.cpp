@@ -106,7 +106,7 @@ Json renderSequence(LoadedScene& loaded, renderer::Renderer& renderer, const sce
     if (!one.aov.empty()) one.aov = numberFile("--aov", options.aov, i);
     const double timeS = options.scene.timeS.value_or(0.0) + i / options.sequence.framesPerS;
     loaded.motion->setTime(timeS);
-    renderer.updateGeometry(loaded.motion->movingParts());
+    if (!loaded.motion->movesOnlyCameras()) renderer.updateGeometry(loaded.motion->movingParts());
     const scene::Camera camera = first.node >= 0 ? chooseCamera(loaded, options.camera) : first;
     const renderer::Frame frame = renderFrame(renderer, camera, one, format);
     Json json = makeFrameJson(one.frame.frame, frame);
@@ -146,6 +146,7 @@ int run(Options options) {
     result = makeFrameJson(frameOptions, renderFrame(renderer, camera, options, format));
     result["files"] = makeFilesJson(options);
   }
+  renderer.saveReferenceImages();
   if (!options.output.json.empty()) {
     Json document = makeDocument("render", &renderer);
     document["scene"] = makeSceneJson(*loaded);

@@ -162,6 +162,10 @@ void checkMethod(const renderer::FrameOptions& options) {
     throw UsageError(
         fmt::format("--baked: the method '{}' has no use for it", renderer::methodName(options.method)),
         "add --method morphing");
+  if (!options.zexel.cacheFile.empty() && options.method != renderer::Method::Zexel)
+    throw UsageError(
+        fmt::format("--zexel-cache: the method '{}' has no use for it", renderer::methodName(options.method)),
+        "add --method zexel");
 }
 
 void applyOutput(const OutputOptions& options) {

@@ -44,11 +44,16 @@ void declareZexels(Arguments& arguments, depth_reflection_map::ZexelOptions& opt
   arguments.option(
       "--zexel-memory", "BYTES", "Keep reference images up to this, as in 512M; default 512M",
       [&](const std::string& text) { options.maxBytes = parseByteCount("--zexel-memory", text); });
+  arguments.option("--zexel-cache", "FILE", "Reference images are read from there, and new ones added",
+                   setText(options.cacheFile));
   arguments.option(
-      "--zexel-without", "A,B", "Switch off: hierarchy, regions, coherence", [&](const std::string& text) {
+      "--zexel-without", "A,B", "Switch off: hierarchy, regions, coherence, continuation",
+      [&](const std::string& text) {
         for (const std::string& word : splitList(text)) {
-          bool* const parts[] = {&options.isHierarchical, &options.skipsRegions, &options.isCoherent};
-          *parts[findWord("--zexel-without", word, {"hierarchy", "regions", "coherence"})] = false;
+          bool* const parts[] = {&options.isHierarchical, &options.skipsRegions, &options.isCoherent,
+                                 &options.continuesSurfaces};
+          *parts[findWord("--zexel-without", word, {"hierarchy", "regions", "coherence", "continuation"})] =
+              false;
         }
       });
 }

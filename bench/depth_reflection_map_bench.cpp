@@ -3,6 +3,11 @@
 // splat (0 point, 1 square, 2 footprint), z-buffer (0, 1), threads.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <vector>
+
 #include "catoptric/core/parallel.h"
 #include "catoptric/depth_reflection_map/forward_warp.h"
 
@@ -52,6 +57,48 @@ BENCHMARK(warpToMovedEye)
     ->UseRealTime()
     ->MeasureProcessCPUTime();
 
+double medianOf(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+/// One core and two in turn, ten frames each, so that whatever else the machine does meets both.
+void printScaling() {
+  constexpr int kRounds = 40, kFrames = 10;
+  const Pinhole reference = lookThroughWindow({0.2, 0.1, -2}, 1, 1, kZexels, kZexels);
+  const Pinhole view = lookThroughWindow({-0.1, 0.25, -1.9}, 1, 1, 640, 480);
+  const ZexelMap map = makeMap(reference);
+  ForwardWarp warp;
+  WinnerImage image;
+  std::vector<double> rates[2];
+  std::vector<double> ratios;
+  for (int round = 0; round < kRounds; ++round) {
+    double rate[2];
+    for (int i = 0; i < 2; ++i) {
+      core::setThreadCount(i + 1);
+      std::vector<double> frames;
+      for (int frame = -2; frame < kFrames; ++frame) {  // threads start in the first two
+        const auto start = std::chrono::steady_clock::now();
+        const std::uint64_t zexels = warp.warp(map, reference, view, {0, 0, 640, 480}, 0, {}, image);
+        const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+        if (frame >= 0) frames.push_back(double(zexels) / spent.count());
+      }
+      rates[i].push_back(rate[i] = medianOf(frames));
+    }
+    ratios.push_back(rate[1] / rate[0]);
+  }
+  core::setThreadCount(0);
+  std::printf(
+      "million zexels a second, 512x512 to 640x480: one core %.0f, two %.0f, ratio %.2f (medians of %d "
+      "rounds)\n",
+      1e-6 * medianOf(rates[0]), 1e-6 * medianOf(rates[1]), medianOf(ratios), kRounds);
+}
+
 }  // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  printScaling();
+}

@@ -7,12 +7,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 namespace catoptric::depth_reflection_map {
 namespace {
 
 /// From one hemisphere to the next larger one.
-constexpr double kShellRatio = 1.35;
+constexpr double kShellRatio = 1.2;
 
 double shellRadius(const MirrorWindow& window, int shell) {
   return glm::length(window.half) * std::pow(kShellRatio, shell);
@@ -62,6 +63,28 @@ void DepthReflectionMapMethod::setOptions(const ZexelOptions& options) {
   options_ = options;
 }
 
+/// What an object's edge hides from an image on one side of the eye, an image on the other side shows. So of
+/// all pairs of near images that is taken between which the eye lies best: near to both and to the line
+/// between them.
+void DepthReflectionMapMethod::pickPair(const dvec3& eye) {
+  constexpr std::size_t kNear = 12;
+  const std::size_t candidates = std::min(nearest_.size(), kNear);
+  constexpr double kOffLine = 2.0;  // how much more the distance from the line counts
+  double best = std::numeric_limits<double>::max();
+  std::pair<std::size_t, std::size_t> pair(0, 1);
+  for (std::size_t i = 0; i < candidates; ++i)
+    for (std::size_t k = i + 1; k < candidates; ++k) {
+      const dvec3 a = nearest_[i].centre, along = nearest_[k].centre - a;
+      const double share = std::clamp(glm::dot(eye - a, along) / glm::dot(along, along), 0.0, 1.0);
+      const double cost =
+          nearest_[i].distance + nearest_[k].distance + kOffLine * glm::length(a + share * along - eye);
+      if (cost < best) best = cost, pair = {i, k};
+    }
+  if (candidates < 2) return;
+  const Nearest first = nearest_[pair.first], second = nearest_[pair.second];
+  nearest_[0] = first, nearest_[1] = second;
+}
+
 DepthReflectionMapMethod::Window& DepthReflectionMapMethod::findNearest(const raster::FrameContext& frame,
                                                                         const raster::Chain& chain,
                                                                         const dvec3& mirroredEye) {
@@ -74,16 +97,25 @@ DepthReflectionMapMethod::Window& DepthReflectionMapMethod::findNearest(const ra
   const double distance =
       std::max(glm::length(mirroredEye - w.window.centre), 1e-3 * glm::length(w.window.half));
   const int shell = int(std::lround(std::log(distance / shellRadius(w.window, 0)) / std::log(kShellRatio)));
-  std::vector<dvec3>& centres = w.shells[shell];
-  if (centres.empty()) centres = makeHemisphere(w.window, shellRadius(w.window, shell), options_.hemisphere);
+  const core::Box& bounds = frame.scene.geometry().bounds;
+  const dvec3 eye = mirroredEye - 2.0 * mirror.plane.signedDistance(mirroredEye) * mirror.plane.normal;
+  const bool isInside =
+      glm::all(glm::greaterThanEqual(eye, bounds.lower)) && glm::all(glm::lessThanEqual(eye, bounds.upper));
+  const int key = 2 * shell + (isInside ? 0 : 1);
+  Hemisphere& hemisphere = w.shells[key];
+  if (hemisphere.centres.empty())
+    hemisphere = makeHemisphere(w.window, shellRadius(w.window, shell), options_.hemisphere,
+                                isInside ? &bounds : nullptr);
+  spacing_ = hemisphere.spacing;
   nearest_.clear();
-  for (std::size_t i = 0; i < centres.size(); ++i)
-    nearest_.push_back(
-        {{chain.last, isFromBehind, shell, int(i)}, centres[i], glm::length(centres[i] - mirroredEye)});
-  const std::size_t count = std::min(nearest_.size(), std::size_t(options_.references));
-  std::partial_sort(nearest_.begin(), nearest_.begin() + std::ptrdiff_t(count), nearest_.end(),
-                    [](const Nearest& a, const Nearest& b) { return a.distance < b.distance; });
-  nearest_.resize(count);
+  for (std::size_t i = 0; i < hemisphere.centres.size(); ++i)
+    nearest_.push_back({{chain.last, isFromBehind, key, int(i)},
+                        hemisphere.centres[i],
+                        glm::length(hemisphere.centres[i] - mirroredEye)});
+  std::sort(nearest_.begin(), nearest_.end(),
+            [](const Nearest& a, const Nearest& b) { return a.distance < b.distance; });
+  if (options_.references > 1) pickPair(mirroredEye);
+  nearest_.resize(std::min(nearest_.size(), std::size_t(options_.references)));
   return w;
 }
 
@@ -92,9 +124,7 @@ void DepthReflectionMapMethod::warpReferences(raster::FrameContext& frame, const
   std::uint32_t tag = 0;
   for (const Nearest& nearest : nearest_) {
     const MirrorWindow& window = windows_.at({nearest.key.reflector, nearest.key.isFromBehind}).window;
-    const double spacing =
-        shellRadius(window, nearest.key.shell) * std::sqrt(2.0 * glm::pi<double>() / options_.hemisphere);
-    const ReferenceCamera camera = makeReferenceCamera(window, nearest.centre, 0.5 * spacing, options_.size);
+    const ReferenceCamera camera = makeReferenceCamera(window, nearest.centre, 0.5 * spacing_, options_.size);
     const ReferenceImage& image = cache_.take(frame, nearest.key, camera);
     if (tag == 0) {
       const double zexelPx = options_.isHierarchical ? measureZexelPx(camera, view) : 1.0;
@@ -112,41 +142,32 @@ void DepthReflectionMapMethod::warpReferences(raster::FrameContext& frame, const
   }
 }
 
-/// Colour coherence (1998, section 4.1): a pixel that nothing reached keeps the zexel that it showed in the
-/// frame before, as far as the same reference images are still in use.
-void DepthReflectionMapMethod::keepLastFrame(Window& window) {
-  const PixelRectangle &r = winners_.rectangle, &last = window.lastWinners.rectangle;
-  std::array<std::uint32_t, 4> tags{4, 4, 4, 4};
-  for (std::size_t before = 0; before < window.lastKeys.size(); ++before)
-    for (std::size_t now = 0; now < nearest_.size(); ++now)
-      if (nearest_[now].key == window.lastKeys[before]) tags[before] = std::uint32_t(now);
-  const int x0 = std::max(r.x, last.x), x1 = std::min(r.x + r.width, last.x + last.width);
-  const int y0 = std::max(r.y, last.y), y1 = std::min(r.y + r.height, last.y + last.height);
-  for (int y = y0; y < y1; ++y)
-    for (int x = x0; x < x1; ++x) {
-      std::uint32_t& winner = winners_.at(x - r.x, y - r.y);
-      if (winner != 0) continue;
-      const std::uint32_t before = window.lastWinners.at(x - last.x, y - last.y);
-      const std::uint32_t tag = tags[before >> kWinnerTagShift];
-      if (before != 0 && tag < 4) winner = (before & kWinnerIndexMask) | (tag << kWinnerTagShift);
-    }
-}
-
-void DepthReflectionMapMethod::countCoverage(raster::FrameContext& frame, const raster::Chain& chain) const {
-  const PixelRectangle& r = winners_.rectangle;
-  const std::uint32_t word = chain.parentWord();
-  std::uint64_t mirror = 0, uncovered = 0;
-  for (int y = 0; y < r.height; ++y) {
-    const uvec2* ids =
-        frame.parentIds.data() + std::size_t(r.y + y) * std::size_t(frame.camera.widthPx) + r.x;
-    for (int x = 0; x < r.width; ++x) {
-      const bool isMirror = ids[x].y == word;
-      mirror += isMirror ? 1 : 0;
-      uncovered += isMirror && winners_.at(x, y) == 0 ? 1 : 0;
-    }
+void DepthReflectionMapMethod::closeExposures(raster::FrameContext& frame, const raster::Chain& chain,
+                                              const Pinhole& view, Window& window) {
+  if (options_.isCoherent) {
+    std::array<std::uint32_t, 4> tags{kNoTag, kNoTag, kNoTag, kNoTag};
+    for (std::size_t before = 0; before < window.lastKeys.size(); ++before)
+      for (std::size_t now = 0; now < nearest_.size(); ++now)
+        if (nearest_[now].key == window.lastKeys[before]) tags[before] = std::uint32_t(now);
+    keepLastFrame(window.lastWinners, tags, winners_);
   }
-  frame.counters.zexelPixels += mirror;
-  frame.counters.uncoveredPixels += uncovered;
+  const MirrorPixels mirror{frame.parentIds, frame.camera.widthPx, chain.parentWord()};
+  const Coverage coverage = measureCoverage(winners_, mirror);
+  frame.counters.zexelPixels += coverage.pixels;
+  frame.counters.uncoveredPixels += coverage.uncovered;
+  window.lastWinners = winners_;
+  window.lastKeys.clear();
+  for (const Nearest& nearest : nearest_) window.lastKeys.push_back(nearest.key);
+  if (!options_.continuesSurfaces || coverage.uncovered == 0) return;
+  continueSurfaces(mirror, winners_, [&](std::uint32_t winner) {
+    const ReferenceImage& image = cache_.get(nearest_[winner >> kWinnerTagShift].key);
+    const auto zexel = int((winner & kWinnerIndexMask) - 1u), width = image.map.width;
+    const double disparity = image.map.levels[0].disparities[std::size_t(zexel)];
+    const dvec3 point = image.camera.centre + image.camera.worldFromZexel *
+                                                  dvec3(zexel % width + 0.5, zexel / width + 0.5, 1.0) /
+                                                  std::max(disparity, 1e-30);
+    return disparity > 0 ? glm::length(point - view.centre) : 0.0;
+  });
 }
 
 void DepthReflectionMapMethod::resolve(const raster::Chain& chain, const raster::Level& parent,
@@ -168,6 +189,7 @@ void DepthReflectionMapMethod::resolve(const raster::Chain& chain, const raster:
   program_.set("u_winnersCorner", vec2(winners_.rectangle.x - WinnerImage::kBorder,
                                        winners_.rectangle.y - WinnerImage::kBorder));
   program_.set("u_lod", float(level_));
+  program_.set("u_count", int(nearest_.size()));
   program_.set("u_parentWord", chain.parentWord());
   program_.set("u_chain", chain.id);
   for (int i = 0; i < 2; ++i) {
@@ -178,7 +200,6 @@ void DepthReflectionMapMethod::resolve(const raster::Chain& chain, const raster:
     program_.set("u_color" + suffix, unit++);
     image.zexels.bind(unit);
     program_.set("u_zexels" + suffix, unit++);
-    program_.set("u_worldFromZexel" + suffix, mat4(dmat4(image.camera.worldFromZexel)));
     program_.set("u_zexelFromWorld" + suffix, mat4(dmat4(glm::inverse(image.camera.worldFromZexel))));
     program_.set("u_centre" + suffix, vec3(image.camera.centre));
   }
@@ -198,15 +219,11 @@ void DepthReflectionMapMethod::render(raster::FrameContext& frame, const raster:
   Window& window = findNearest(frame, chain, view.centre);
   // 3
   warpReferences(frame, view, {chain.bounds.x, chain.bounds.y, chain.bounds.width, chain.bounds.height});
-  if (options_.isCoherent) keepLastFrame(window);
-  countCoverage(frame, chain);
+  closeExposures(frame, chain, view, window);
   // 1
   background_.draw(frame.scene, chain, parent, target);
   // 4
   resolve(chain, parent, target);
-  std::swap(window.lastWinners, winners_);
-  window.lastKeys.clear();
-  for (const Nearest& nearest : nearest_) window.lastKeys.push_back(nearest.key);
 }
 
 }  // namespace catoptric::depth_reflection_map

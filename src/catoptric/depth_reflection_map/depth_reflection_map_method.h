@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "catoptric/depth_reflection_map/exposures.h"
 #include "catoptric/depth_reflection_map/forward_warp.h"
 #include "catoptric/depth_reflection_map/inverse_warp.h"
 #include "catoptric/depth_reflection_map/reference_image.h"
@@ -22,6 +23,11 @@ class DepthReflectionMapMethod : public raster::ReflectionMethod {
   [[nodiscard]] bool supports(const raster::Chain&) const override { return true; }
   /// Reference images are kept unless hemisphere or size differ.
   void setOptions(const ZexelOptions& options);
+  /// See ReferenceCache. What has moved since the start is in no file.
+  void useCacheFile(const std::filesystem::path& path, std::uint64_t fingerprint) {
+    cache_.useFile(path, fingerprint);
+  }
+  void saveCacheFile() { cache_.save(); }
   void prepare(raster::FrameContext&) override {}
   /// Something moved: all reference images are taken anew.
   void geometryChanged() override {
@@ -36,21 +42,22 @@ class DepthReflectionMapMethod : public raster::ReflectionMethod {
   /// The hemispheres behind one side of a mirror.
   struct Window {
     MirrorWindow window;
-    std::map<int, std::vector<dvec3>> shells;
-    WinnerImage lastWinners;  ///< of the frame before, and which references they are of
+    std::map<int, Hemisphere> shells;  ///< see ReferenceKey::shell
+    WinnerImage lastWinners;           ///< of the frame before, and which references they are of
     std::vector<ReferenceKey> lastKeys;
   };
   /// One of the (at most two) reference images nearest to the mirrored eye.
   struct Nearest {
     ReferenceKey key;
     dvec3 centre{0};
-    double distance = 0;
+    double distance = 0;  ///< from the mirrored eye
   };
   Window& findNearest(const raster::FrameContext& frame, const raster::Chain& chain,
                       const dvec3& mirroredEye);
+  void pickPair(const dvec3& eye);
   void warpReferences(raster::FrameContext& frame, const Pinhole& view, const PixelRectangle& rectangle);
-  void keepLastFrame(Window& window);
-  void countCoverage(raster::FrameContext& frame, const raster::Chain& chain) const;
+  void closeExposures(raster::FrameContext& frame, const raster::Chain& chain, const Pinhole& view,
+                      Window& window);
   void resolve(const raster::Chain& chain, const raster::Level& parent, const raster::Level& target);
 
   ZexelOptions options_;
@@ -61,6 +68,7 @@ class DepthReflectionMapMethod : public raster::ReflectionMethod {
   ReferenceCache cache_;
   std::map<std::pair<std::uint32_t, bool>, Window> windows_;  ///< reflector, seen from behind
   std::vector<Nearest> nearest_;
+  double spacing_ = 0;  ///< of the images of its hemisphere
   ForwardWarp warp_;
   InverseWarp inverse_;
   WinnerImage winners_, secondWinners_;

@@ -11,6 +11,14 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kPieces = 8;  // of the whole image, about
 
+/// ceil(value) within [low, high]; the library's is a call.
+int ceilWithin(double value, int low, int high) {
+  if (!(value > low)) return low;
+  if (value >= high) return high;
+  const int whole = int(value);  // towards 0
+  return double(whole) < value ? whole + 1 : whole;
+}
+
 }  // namespace
 
 /// The part of the image on one side of the epipole's row and column. Slopes are distance in x over distance
@@ -26,25 +34,23 @@ struct EpipolarOrder::Quadrant {
   }
   /// How many zexels of a row have a slope below the given one; they are those next to the epipole.
   [[nodiscard]] int countBelow(int row, double slope) const {
-    const int columns = columnEnd - columnBegin;
-    if (slope == kInfinity) return columns;
+    if (slope == kInfinity) return columnEnd - columnBegin;
     const double reach = slope * std::abs(row + 0.5 - epipole.y);
-    const double count = isLeft ? columnEnd - std::ceil(epipole.x - reach - 0.5)
-                                : std::ceil(epipole.x + reach - 0.5) - columnBegin;
-    return int(std::clamp(count, 0.0, double(columns)));
+    return isLeft ? columnEnd - ceilWithin(epipole.x - reach - 0.5, columnBegin, columnEnd)
+                  : ceilWithin(epipole.x + reach - 0.5, columnBegin, columnEnd) - columnBegin;
   }
 };
 
-/// The slope below which a share of the quadrant lies, from every eighth row.
+/// The slope below which about a share of the quadrant lies, from every 16th row.
 double EpipolarOrder::findSlope(const Quadrant& q, double share) {
   const double nearX = q.isLeft ? q.epipole.x - q.columnEnd : q.columnBegin - q.epipole.x;
   const double nearY = q.isBelow ? q.epipole.y - q.rowEnd : q.rowBegin - q.epipole.y;
   const double farX = nearX + (q.columnEnd - q.columnBegin), farY = nearY + (q.rowEnd - q.rowBegin);
   double low = std::atan2(std::max(nearX, 0.0), farY), high = std::atan2(farX, std::max(nearY, 0.0));
-  for (int step = 0; step < 24; ++step) {
+  for (int step = 0; step < 12; ++step) {
     const double slope = std::tan(0.5 * (low + high));
     double below = 0, all = 0;
-    for (int row = q.rowBegin; row < q.rowEnd; row += 8) {
+    for (int row = q.rowBegin; row < q.rowEnd; row += 16) {
       below += q.countBelow(row, slope);
       all += q.columnEnd - q.columnBegin;
     }

@@ -24,6 +24,7 @@
 
 #include "catoptric/core/math.h"
 #include "catoptric/depth_reflection_map/epipolar_order.h"
+#include "catoptric/depth_reflection_map/zexel_landing.h"
 #include "catoptric/depth_reflection_map/zexel_map.h"
 #include "catoptric/depth_reflection_map/zexel_options.h"
 
@@ -54,8 +55,15 @@ struct WinnerImage {
   int stride = 0, rows = 0;            ///< with the border
   std::vector<std::uint32_t> winners;  ///< zexel of level 0 + 1, with the tag; 0 = none
   std::vector<float> nearness;         ///< ZBuffer only: 1 / depth, -1 = none
+  PixelBox written;                    ///< with the border; all other winners are 0
 
   void reset(const PixelRectangle& bounds, bool withNearness);
+  /// As reset(), but what the winners are is not defined.
+  void resize(const PixelRectangle& bounds, bool withNearness);
+  [[nodiscard]] bool hasLayoutOf(const WinnerImage& other) const {
+    return stride == other.stride && winners.size() == other.winners.size() &&
+           nearness.size() == other.nearness.size();
+  }
   /// Pixel of the rectangle, (0, 0) its lower left one.
   [[nodiscard]] std::uint32_t at(int x, int y) const {
     return winners[std::size_t(y + kBorder) * std::size_t(stride) + std::size_t(x + kBorder)];
@@ -77,13 +85,18 @@ class ForwardWarp {
 
  private:
   struct Setup;
-  void findVisibleTiles(const ZexelLevel& level, const Setup& setup, bool skips);
+  void findVisibleTiles(const ZexelLevel& level, const Setup& setup, const WinnerImage& image, bool skips);
+  [[nodiscard]] std::uint64_t countVisible(const ZexelLevel& level, const Sheet& sheet) const;
+  void shareSheets(const ZexelLevel& level, std::size_t threads, std::uint64_t clearing);
   std::uint64_t warpSheets(const ZexelLevel& level, const Setup& setup, std::size_t first, std::size_t last,
                            const WarpOptions& options, WinnerImage& out) const;
 
   EpipolarOrder order_;
   std::vector<std::uint8_t> visibleTiles_;
-  std::vector<WinnerImage> layers_;  ///< of the threads after the first
+  std::vector<std::uint32_t> visibleBefore_;  ///< zexels of a row before each tile, and before its end
+  std::vector<std::uint64_t> sheetWork_;
+  std::vector<std::size_t> firstSheets_;  ///< of each thread, and the end
+  std::vector<WinnerImage> layers_;  ///< of the threads after the first; between calls nothing is in them
 };
 
 /// Pixels that `first` does not show are taken from `second`; both have the same rectangle.

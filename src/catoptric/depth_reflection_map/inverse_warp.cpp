@@ -8,37 +8,64 @@
 namespace catoptric::depth_reflection_map {
 namespace {
 
-constexpr double kOpenFrom = 0.3;  // length of the mean normal; a closed surface has 0
-constexpr double kBefore = 0.15;   // of an open surface's radius
-constexpr double kAround = 1.02;   // of the radius
-constexpr float kTexelsPerStep = 2.5f;
+constexpr double kOpenFrom = 0.3;       // length of the mean normal; a closed surface has 0
+constexpr double kBefore = 0.15;        // of an open surface's radius
+constexpr double kAround = 1.02;        // of the radius
+constexpr double kFarthestImage = 4.0;  // of an eye by a concave mirror, of the radius
+constexpr double kImageGrid = 0.05;     // likewise: the eye may move for a while until a cube is drawn anew
+constexpr std::uint32_t kMostSamples = 256;
+constexpr float kTexelsPerStep = 1.5f;
 
 }  // namespace
 
-std::vector<dvec3> makeCubeCentres(const scene::WorldGeometry& world, std::uint32_t reflector,
-                                   const dvec3& eye) {
-  const scene::Reflector& mirror = world.reflectors[reflector];
-  const scene::Part& part = world.parts[mirror.part];
-  dvec3 middle(0), normal(0);
-  double facing = 0;
+ReflectorOutline measureOutline(const scene::WorldGeometry& world, std::uint32_t reflector) {
+  const scene::Part& part = world.parts[world.reflectors[reflector].part];
+  ReflectorOutline outline;
   for (std::uint32_t v = part.firstVertex; v < part.firstVertex + part.vertexCount; ++v) {
-    const dvec3 p(world.positions[v]), n(world.normals[v]);
-    middle += p;
-    normal += n;
-    facing += glm::dot(n, eye - p) > 0.0 ? 1.0 : -1.0;
+    outline.middle += dvec3(world.positions[v]);
+    outline.normal += dvec3(world.normals[v]);
   }
   const double count = std::max<double>(part.vertexCount, 1);
-  middle /= count;
-  normal *= (mirror.doubleSided && facing < 0.0 ? -1.0 : 1.0) / count;
-  const bool isOpen = glm::length(normal) > kOpenFrom;
-  std::vector<dvec3> centres{isOpen ? middle + kBefore * mirror.radius * glm::normalize(normal)
+  outline.middle /= count;
+  outline.normal /= count;
+  const std::uint32_t step = std::max(1u, part.vertexCount / kMostSamples);
+  for (std::uint32_t v = part.firstVertex; v < part.firstVertex + part.vertexCount; v += step)
+    outline.samples.push_back({dvec3(world.positions[v]), dvec3(world.normals[v])});
+  return outline;
+}
+
+std::optional<dvec3> findEyeImage(const ReflectorOutline& outline, const dvec3& eye) {
+  dmat3 sum(0.0);
+  dvec3 right(0);
+  for (const auto& [p, n] : outline.samples) {
+    const dvec3 r = core::reflectDirection(glm::normalize(p - eye), glm::normalize(n));
+    const dmat3 across = dmat3(1.0) - glm::outerProduct(r, r);
+    sum += across;
+    right += across * p;
+  }
+  const double scale = double(outline.samples.size());
+  if (!(glm::determinant(sum) > 1e-6 * scale * scale * scale)) return std::nullopt;
+  return glm::inverse(sum) * right;
+}
+
+std::vector<dvec3> makeCubeCentres(const scene::Reflector& mirror, const ReflectorOutline& outline,
+                                   const dvec3& eye) {
+  const bool isOpen = glm::length(outline.normal) > kOpenFrom;
+  const bool isFromBehind = mirror.doubleSided && glm::dot(eye - outline.middle, outline.normal) < 0.0;
+  const dvec3 normal = isFromBehind ? -outline.normal : outline.normal;
+  std::vector<dvec3> centres{isOpen ? outline.middle + kBefore * mirror.radius * glm::normalize(normal)
                                     : mirror.centre};
   for (const dvec3& axis : {dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(0, 0, 1)})
     for (const double sign : {1.0, -1.0}) {
       if (isOpen && glm::dot(sign * axis, normal) < 0.0) continue;  // would be behind it
       centres.push_back(centres[0] + sign * kAround * mirror.radius * axis);
     }
-  return centres;
+  if (!isOpen) return centres;
+  const auto image = findEyeImage(outline, eye);
+  const double distance = image ? glm::dot(*image - outline.middle, glm::normalize(normal)) : 0.0;
+  if (distance < kBefore * mirror.radius || distance > kFarthestImage * mirror.radius) return centres;
+  const double grid = kImageGrid * mirror.radius;
+  return {glm::round(*image / grid) * grid, centres[0]};
 }
 
 InverseWarp::InverseWarp() : program_("raster/screen.vert", "depth_reflection_map/inverse_warp.frag") {}
@@ -52,7 +79,10 @@ void InverseWarp::render(raster::FrameContext& frame, const raster::Chain& chain
                          const raster::Level& target) {
   // 1, 2
   const dvec3 eye = dvec3(glm::inverse(chain.screenFromDraw) * dvec4(frame.camera.eye, 1.0));
-  const std::vector<dvec3> centres = makeCubeCentres(frame.scene.geometry(), chain.last, eye);
+  const scene::WorldGeometry& world = frame.scene.geometry();
+  const auto [outline, isNew] = outlines_.try_emplace(chain.last);
+  if (isNew) outline->second = measureOutline(world, chain.last);
+  const std::vector<dvec3> centres = makeCubeCentres(world.reflectors[chain.last], outline->second, eye);
   int second = 0;
   for (int i = 1; i < int(centres.size()); ++i)
     if (second == 0 ||

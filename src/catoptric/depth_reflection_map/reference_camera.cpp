@@ -64,17 +64,39 @@ ReferenceCamera makeReferenceCamera(const MirrorWindow& window, const dvec3& cen
   return camera;
 }
 
-std::vector<dvec3> makeHemisphere(const MirrorWindow& window, double radius, int count) {
+namespace {
+
+/// Point i of n on the unit hemisphere, each with the same area around it.
+dvec3 pointOfHemisphere(const MirrorWindow& window, int i, int n) {
   constexpr double kLowest = 0.1, kGolden = 2.399963229728653;  // golden angle, radians
-  std::vector<dvec3> points;
-  points.reserve(std::size_t(count));
-  for (int i = 0; i < count; ++i) {
-    const double z = 1.0 - (1.0 - kLowest) * (i + 0.5) / count;  // equal areas
-    const double r = std::sqrt(1.0 - z * z), angle = kGolden * i;
-    points.push_back(window.centre + radius * (r * std::cos(angle) * window.right +
-                                               r * std::sin(angle) * window.up - z * window.forward));
-  }
-  return points;
+  const double z = 1.0 - (1.0 - kLowest) * (i + 0.5) / n;
+  const double r = std::sqrt(1.0 - z * z), angle = kGolden * i;
+  return r * std::cos(angle) * window.right + r * std::sin(angle) * window.up - z * window.forward;
+}
+
+}  // namespace
+
+Hemisphere makeHemisphere(const MirrorWindow& window, double radius, int count, const core::Box* room) {
+  const auto isWithin = [&](const dvec3& point) {
+    const dvec3 eye = point - 2.0 * glm::dot(point - window.centre, window.forward) * window.forward;
+    return !room || (glm::all(glm::greaterThanEqual(eye, room->lower)) &&
+                     glm::all(glm::lessThanEqual(eye, room->upper)));
+  };
+  const auto take = [&](int n) {
+    std::vector<dvec3> points;
+    for (int i = 0; i < n; ++i)
+      if (const dvec3 p = window.centre + radius * pointOfHemisphere(window, i, n); isWithin(p))
+        points.push_back(p);
+    return points;
+  };
+  constexpr int kTrial = 4096, kLeast = kTrial / 100;
+  const int inside = room ? int(take(kTrial).size()) : kTrial;
+  if (inside < kLeast) return makeHemisphere(window, radius, count);
+  const double share = double(inside) / kTrial;
+  Hemisphere hemisphere{take(int(std::lround(count / share))),
+                        radius * std::sqrt(2.0 * glm::pi<double>() * share / count)};
+  if (hemisphere.centres.empty()) return makeHemisphere(window, radius, count);
+  return hemisphere;
 }
 
 }  // namespace catoptric::depth_reflection_map

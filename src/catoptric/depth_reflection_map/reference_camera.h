@@ -42,8 +42,17 @@ struct ReferenceCamera {
 [[nodiscard]] ReferenceCamera makeReferenceCamera(const MirrorWindow& window, const dvec3& centre,
                                                   double margin, int size);
 
+/// Where images of one distance are taken from.
+struct Hemisphere {
+  std::vector<dvec3> centres;
+  double spacing = 0;  ///< about, between neighbours, metres
+};
+
 /// `count` points spread evenly over the hemisphere of a radius behind the window, none nearer to its plane
-/// than a tenth of the radius.
-[[nodiscard]] std::vector<dvec3> makeHemisphere(const MirrorWindow& window, double radius, int count);
+/// than a tenth of the radius; or over that part of it where a mirrored eye can be when the eye itself stays
+/// within `room`. Where less than a hundredth of the hemisphere belongs to it, or `room` is null, over all of
+/// it.
+[[nodiscard]] Hemisphere makeHemisphere(const MirrorWindow& window, double radius, int count,
+                                        const core::Box* room = nullptr);
 
 }  // namespace catoptric::depth_reflection_map

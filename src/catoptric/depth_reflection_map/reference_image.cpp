@@ -5,6 +5,11 @@
 #include <array>
 #include <bit>
 #include <chrono>
+#include <glm/gtc/packing.hpp>
+#include <system_error>
+
+#include "catoptric/core/error.h"
+#include "catoptric/core/file.h"
 
 namespace catoptric::depth_reflection_map {
 namespace {
@@ -15,6 +20,15 @@ int mipLevels(int width, int height) {
 
 gl::SamplerState smooth() {
   return {gl::TextureWrap::ClampToEdge, gl::TextureWrap::ClampToEdge, false, false, true};
+}
+
+constexpr std::size_t kLargestFile = std::size_t(8) << 30;
+
+std::vector<float> readDisparities(const std::vector<uvec2>& zexels) {
+  std::vector<float> disparities(zexels.size());
+  std::transform(zexels.begin(), zexels.end(), disparities.begin(),
+                 [](const uvec2& zexel) { return std::bit_cast<float>(zexel.x); });
+  return disparities;
 }
 
 }  // namespace
@@ -47,6 +61,66 @@ void ReferenceCache::evict() {
     }));
 }
 
+void ReferenceCache::clear() {
+  images_.clear();
+  records_.clear();
+  path_.clear();
+  hasNew_ = false;
+}
+
+void ReferenceCache::useFile(const std::filesystem::path& path, std::uint64_t fingerprint) {
+  std::error_code ignored;
+  records_.clear();
+  path_ = path;
+  fingerprint_ = fingerprint;
+  hasNew_ = !images_.empty();
+  if (!std::filesystem::exists(path, ignored)) return;
+  try {
+    records_ = unpackReferences(core::readFile(path, kLargestFile), fingerprint);
+  } catch (const core::Error& error) {
+    path_.clear();
+    if (error.code().starts_with("file.")) throw;
+    throw core::Error(error.code(), "'" + path.string() + "': " + error.message(), {}, error.hint());
+  }
+}
+
+bool ReferenceCache::loadFromFile(const ReferenceKey& key, ReferenceImage& image) const {
+  const auto record = records_.find(key);
+  if (record == records_.end()) return false;
+  const StoredImage stored = unpackImage(record->second);
+  const ReferenceCamera &there = stored.camera, &here = image.camera;
+  if (there.centre != here.centre || there.worldFromZexel != here.worldFromZexel ||
+      there.width != here.width || there.height != here.height)
+    return false;  // of another hemisphere or size
+  std::vector<vec4> radiance(stored.radiance.size());
+  std::transform(stored.radiance.begin(), stored.radiance.end(), radiance.begin(),
+                 [](std::uint64_t half) { return glm::unpackHalf4x16(half); });
+  image.color.upload(0, 0, radiance.data());
+  image.color.generateMipmaps();
+  image.zexels.uploadCorner(here.width, here.height, stored.zexels.data());
+  image.map = makeZexelMap(here.width, here.height, readDisparities(stored.zexels));
+  return true;
+}
+
+void ReferenceCache::save() {
+  if (path_.empty() || !hasNew_) return;
+  for (const auto& [key, image] : images_) {
+    const std::array<const gl::Texture*, 2> targets{&image->color, &image->zexels};
+    const gl::Framebuffer framebuffer(targets, nullptr);
+    StoredImage stored{key, image->camera, {}, {}};
+    std::vector<vec4> radiance(std::size_t(image->camera.width) * std::size_t(image->camera.height));
+    framebuffer.readPixels(0, std::span<vec4>(radiance));
+    stored.zexels.resize(radiance.size());
+    framebuffer.readPixels(1, std::span<uvec2>(stored.zexels));
+    stored.radiance.resize(radiance.size());
+    std::transform(radiance.begin(), radiance.end(), stored.radiance.begin(),
+                   [](const vec4& value) { return glm::packHalf4x16(value); });
+    records_[key] = packImage(stored);
+  }
+  core::writeFileAtomically(path_, packReferences(fingerprint_, records_));
+  hasNew_ = false;
+}
+
 void ReferenceCache::capture(raster::FrameContext& frame, std::uint32_t reflector, ReferenceImage& image) {
   const ReferenceCamera& camera = image.camera;
   if (!level_ || level_->widthPx != camera.width || level_->heightPx != camera.height)
@@ -74,10 +148,7 @@ void ReferenceCache::capture(raster::FrameContext& frame, std::uint32_t reflecto
 
   std::vector<uvec2> zexels(std::size_t(camera.width) * std::size_t(camera.height));
   framebuffer.readPixels(1, std::span<uvec2>(zexels));
-  std::vector<float> disparities(zexels.size());
-  std::transform(zexels.begin(), zexels.end(), disparities.begin(),
-                 [](const uvec2& zexel) { return std::bit_cast<float>(zexel.x); });
-  image.map = makeZexelMap(camera.width, camera.height, disparities);
+  image.map = makeZexelMap(camera.width, camera.height, readDisparities(zexels));
   image.color.generateMipmaps();
 }
 
@@ -88,10 +159,13 @@ ReferenceImage& ReferenceCache::take(raster::FrameContext& frame, const Referenc
   if (isNew) {
     const auto start = std::chrono::steady_clock::now();
     slot = std::make_unique<ReferenceImage>(camera);
-    capture(frame, key.reflector, *slot);
+    if (!loadFromFile(key, *slot)) {
+      capture(frame, key.reflector, *slot);
+      ++frame.counters.zexelCaptures;
+      hasNew_ = true;
+    }
     const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
     frame.counters.captureMs += spent.count();
-    ++frame.counters.zexelCaptures;
   }
   ReferenceImage& image = *slot;
   image.lastUse = ++now_;

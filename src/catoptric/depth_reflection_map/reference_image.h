@@ -4,11 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
-#include <tuple>
 
 #include "catoptric/depth_reflection_map/reference_camera.h"
+#include "catoptric/depth_reflection_map/reference_file.h"
+#include "catoptric/depth_reflection_map/reference_key.h"
 #include "catoptric/depth_reflection_map/zexel_map.h"
 #include "catoptric/raster/reflection_method.h"
 
@@ -25,21 +27,6 @@ struct ReferenceImage {
   std::uint64_t lastUse = 0;
 };
 
-/// Which reference image of a scene.
-struct ReferenceKey {
-  std::uint32_t reflector = 0;
-  bool isFromBehind = false;  ///< of a double-sided mirror
-  int shell = 0, index = 0;
-
-  friend bool operator==(const ReferenceKey& a, const ReferenceKey& b) { return a.order() == b.order(); }
-  friend bool operator<(const ReferenceKey& a, const ReferenceKey& b) { return a.order() < b.order(); }
-
- private:
-  [[nodiscard]] std::tuple<std::uint32_t, bool, int, int> order() const {
-    return {reflector, isFromBehind, shell, index};
-  }
-};
-
 /// Takes reference images when they are asked for and keeps them, the ones used last, under a bound.
 class ReferenceCache {
  public:
@@ -47,8 +34,13 @@ class ReferenceCache {
 
   /// The two most recent ones stay whatever the bound is.
   void setMaxBytes(std::size_t bytes) { maxBytes_ = bytes; }
-  /// Everything is taken anew: something moved.
-  void clear() { images_.clear(); }
+  /// Images that are not in memory are taken from this file, where it exists, and save() writes to it. Throws
+  /// as unpackReferences() and core::readFile() do.
+  void useFile(const std::filesystem::path& path, std::uint64_t fingerprint);
+  /// Writes the file, whole or not at all, when images have been taken that are not in it. Needs a context.
+  void save();
+  /// Everything is taken anew: something moved. The file is of no use any more, and stays as it is.
+  void clear();
   [[nodiscard]] std::size_t bytes() const;
   [[nodiscard]] std::size_t count() const { return images_.size(); }
 
@@ -60,6 +52,7 @@ class ReferenceCache {
 
  private:
   void capture(raster::FrameContext& frame, std::uint32_t reflector, ReferenceImage& image);
+  [[nodiscard]] bool loadFromFile(const ReferenceKey& key, ReferenceImage& image) const;
   void evict();
 
   gl::Program program_;
@@ -68,6 +61,10 @@ class ReferenceCache {
   std::map<ReferenceKey, std::unique_ptr<ReferenceImage>> images_;
   std::size_t maxBytes_ = std::size_t(512) << 20;
   std::uint64_t now_ = 0;
+  std::filesystem::path path_;  ///< empty: no file
+  std::uint64_t fingerprint_ = 0;
+  std::map<ReferenceKey, std::vector<std::byte>> records_;  ///< of the file
+  bool hasNew_ = false;                                     ///< images that are not in the file
 };
 
 }  // namespace catoptric::depth_reflection_map

@@ -40,11 +40,12 @@ ZexelMap makeZexelMap(int width, int height, std::span<const float> disparities)
     level.step = step;
     level.width = (width - step / 2 + step - 1) / step;
     level.height = (height - step / 2 + step - 1) / step;
-    level.disparities.reserve(std::size_t(level.width) * std::size_t(level.height));
+    level.disparities.reserve(std::size_t(level.width) * std::size_t(level.height) + ZexelLevel::kPadding);
     for (int y = 0; y < level.height; ++y)
       for (int x = 0; x < level.width; ++x)
         level.disparities.push_back(
             disparities[std::size_t(level.base(y)) * std::size_t(width) + std::size_t(level.base(x))]);
+    level.disparities.insert(level.disparities.end(), ZexelLevel::kPadding, 0.0f);
     fillTiles(level);
     map.levels.push_back(std::move(level));
   }

@@ -18,7 +18,9 @@ constexpr int kZexelTile = 32;  ///< edge of a tile, zexels of its level
 struct ZexelLevel {
   int step = 1;  ///< zexels of level 0 per zexel of this one
   int width = 0, height = 0;
-  std::vector<float> disparities;  ///< bottom row first
+  /// Bottom row first; kPadding zeros follow, so that lanes may be read beyond the last one.
+  std::vector<float> disparities;
+  static constexpr int kPadding = 8;
 
   struct Tile {
     float least = 0, largest = 0;  ///< disparity

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 namespace catoptric::depth_reflection_map {
 
@@ -18,10 +19,12 @@ struct ZexelOptions {
   int references = 2;   ///< warped for each mirror and frame, 1 or 2
   Splat splat = Splat::Footprint;
   Visibility visibility = Visibility::Ordered;
-  bool isHierarchical = true;  ///< fewer zexels for a mirror that is small on screen
-  bool skipsRegions = true;    ///< leaves out zexels that cannot land in the mirror's image
-  bool isCoherent = true;      ///< uncovered pixels keep what they showed in the last frame
+  bool isHierarchical = true;     ///< fewer zexels for a mirror that is small on screen
+  bool skipsRegions = true;       ///< leaves out zexels that cannot land in the mirror's image
+  bool isCoherent = true;         ///< uncovered pixels keep what they showed in the last frame
+  bool continuesSurfaces = true;  ///< exposures show what lies behind their edges, continued
   std::size_t maxBytes = std::size_t(512) << 20;  ///< of all reference images together
+  std::string cacheFile{};                        ///< of reference images, read at the start; empty: none
 };
 
 }  // namespace catoptric::depth_reflection_map

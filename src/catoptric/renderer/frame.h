@@ -108,6 +108,10 @@ class Renderer {
   /// After vertices of these parts of the geometry, or reflectors, have moved (scene::WorldMotion).
   void updateGeometry(std::span<const std::uint32_t> movedParts);
 
+  /// Writes the reference images of zexels to ZexelOptions::cacheFile, when there are new ones. Throws
+  /// core::Error("file.write").
+  void saveReferenceImages();
+
   /// What `auto` picks for a reflector.
   [[nodiscard]] static MethodChoice chooseMethod(const scene::Reflector& reflector);
 

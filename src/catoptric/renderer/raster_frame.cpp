@@ -12,6 +12,7 @@
 #include "catoptric/core/error.h"
 #include "catoptric/core/parallel.h"
 #include "catoptric/core/sample_pattern.h"
+#include "catoptric/depth_reflection_map/reference_file.h"
 #include "catoptric/geometry/mesh_measures.h"
 #include "catoptric/reflection_morphing/baked_file.h"
 
@@ -104,7 +105,9 @@ double RasterFrame::findNearPlane(const scene::CameraFrame& camera) {
 RasterFrame::RasterFrame(gl::Context& context, const scene::Scene& scene,
                          const scene::WorldGeometry& geometry, const scene::Environment& environment)
     : context_(context),
+      sceneData_(scene),
       geometry_(geometry),
+      surroundings_(environment),
       scene_(scene, geometry, environment),
       primary_(surfaces_),
       virtual_(virtual_object::Solver::Refined, hits_),
@@ -117,6 +120,7 @@ RasterFrame::RasterFrame(gl::Context& context, const scene::Scene& scene,
 void RasterFrame::updateGeometry(std::span<const std::uint32_t> movedParts) {
   scene_.updateGeometry(movedParts);
   nearPlane_ = 0;
+  hasMoved_ = true;
   primary_.geometryChanged();
   hits_.geometryChanged();
   for (raster::ReflectionMethod* method : methods_) method->geometryChanged();
@@ -287,6 +291,15 @@ void RasterFrame::prepareMorphing(const FrameOptions& options) {
   morphingSource_ = name;
 }
 
+void RasterFrame::prepareZexels(const FrameOptions& options) {
+  const std::string& file = options.zexel.cacheFile;
+  if (file == zexelFile_ || hasMoved_) return;
+  if (!file.empty())
+    zexel_.useCacheFile(file,
+                        depth_reflection_map::computeSceneFingerprint(sceneData_, geometry_, surroundings_));
+  zexelFile_ = file;
+}
+
 void RasterFrame::readSeen(const raster::Level& level, Frame& frame) const {
   const int width = level.widthPx, height = level.heightPx;
   std::vector<vec4> points(std::size_t(width) * std::size_t(height));
@@ -317,6 +330,7 @@ Frame RasterFrame::render(const scene::CameraFrame& camera, const FrameOptions& 
   virtual_.setSolver(virtualObjectSolver(options.solver));
   if (options.method == Method::Morphing) prepareMorphing(options);
   zexel_.setOptions(options.zexel);
+  if (options.method == Method::Zexel) prepareZexels(options);
   environment_.setOptions(options.environmentMapSize, options.boxCorrected);
   frame.radiance = core::ImageRgbaF(options.widthPx, options.heightPx, vec4(0, 0, 0, 1));
   const raster::Level& level = *levels_[0];

@@ -26,6 +26,7 @@ class RasterFrame {
   [[nodiscard]] Frame render(const scene::CameraFrame& camera, const FrameOptions& options);
   /// After vertices of these parts have moved.
   void updateGeometry(std::span<const std::uint32_t> movedParts);
+  void saveReferenceImages() { zexel_.saveCacheFile(); }
 
  private:
   void prepareLevels(int count, int widthPx, int heightPx);
@@ -39,12 +40,16 @@ class RasterFrame {
   [[nodiscard]] raster::ReflectionMethod* pickMethod(const raster::Chain& chain, const FrameOptions& options);
   /// Opens the baked file, or makes ready to bake where the eye is.
   void prepareMorphing(const FrameOptions& options);
+  /// Opens the file of reference images.
+  void prepareZexels(const FrameOptions& options);
   void readSeen(const raster::Level& level, Frame& frame) const;
   /// chooseNearPlane(), once for each place of the eye.
   [[nodiscard]] double findNearPlane(const scene::CameraFrame& camera);
 
   gl::Context& context_;
+  const scene::Scene& sceneData_;
   const scene::WorldGeometry& geometry_;
+  const scene::Environment& surroundings_;
   raster::SceneBuffers scene_;
   raster::SurfacePass surfaces_;
   raster::PrimaryPass primary_;
@@ -57,6 +62,8 @@ class RasterFrame {
   reflection_morphing::ReflectionMorphingMethod morphing_;
   std::string morphingSource_;  ///< what morphing_ has its locations from
   depth_reflection_map::DepthReflectionMapMethod zexel_;
+  std::string zexelFile_;  ///< that zexel_ was given
+  bool hasMoved_ = false;
   /// All of them, in no order that matters.
   std::array<raster::ReflectionMethod*, 6> methods_{&planar_, &virtual_,     &exact_,
                                                     &zexel_,  &environment_, &morphing_};

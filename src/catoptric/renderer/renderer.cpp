@@ -70,6 +70,12 @@ void Renderer::updateGeometry(std::span<const std::uint32_t> movedParts) {
   impl_->raster->updateGeometry(movedParts);
 }
 
+void Renderer::saveReferenceImages() {
+  if (!impl_->raster) return;
+  impl_->getContext().makeCurrent();
+  impl_->raster->saveReferenceImages();
+}
+
 std::string Renderer::describeGl() {
   return impl_->getContext().description();
 }

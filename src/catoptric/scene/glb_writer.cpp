@@ -174,8 +174,45 @@ class GlbBuilder {
         {{"type", "perspective"},
          {"name", camera.name},
          {"perspective", {{"yfov", makeNumber(float(camera.fovYRadians))}, {"znear", 0.01}}}});
-    const Json node = {{"name", camera.name}, {"camera", document_["cameras"].size() - 1}};
-    addNode(node, glm::inverse(glm::lookAt(camera.eye, camera.target, camera.up)));
+    Json node = {{"name", camera.name}, {"camera", document_["cameras"].size() - 1}};
+    if (camera.node < 0)
+      return addNode(std::move(node), glm::inverse(glm::lookAt(camera.eye, camera.target, camera.up)));
+    const MotionNode& rest = scene_.motion.nodes.at(std::size_t(camera.node));
+    node["translation"] = makeVectorJson(vec3(rest.translation));
+    node["rotation"] = Json::array();
+    for (const double value : {rest.rotation.x, rest.rotation.y, rest.rotation.z, rest.rotation.w})
+      node["rotation"].push_back(makeNumber(float(value)));
+    addNode(std::move(node), dmat4(1.0));
+    for (const Animation& animation : scene_.motion.animations)
+      addAnimation(animation, camera.node, document_["nodes"].size() - 1);
+  }
+
+  /// The channels of one node of the motion, by the number that it has in the file.
+  void addAnimation(const Animation& animation, int motionNode, std::size_t fileNode) {
+    constexpr const char* kInterpolations[] = {"STEP", "LINEAR", "CUBICSPLINE"};  // in the order of the enums
+    constexpr const char* kPaths[] = {"translation", "rotation", "scale", "weights"};
+    Json json = {{"name", animation.name}};
+    for (const AnimationChannel& channel : animation.channels) {
+      if (channel.node != motionNode) continue;
+      assert(channel.property != AnimatedProperty::Weights);
+      const std::size_t times = addTimes(channel.timesS);
+      const std::size_t values = addAccessor(channel.values, channel.width == 4 ? "VEC4" : "VEC3", kFloat, 0);
+      document_["accessors"][values]["count"] = channel.values.size() / channel.width;
+      json["channels"].push_back(
+          {{"sampler", json.contains("samplers") ? json["samplers"].size() : 0},
+           {"target", {{"node", fileNode}, {"path", kPaths[std::size_t(channel.property)]}}}});
+      json["samplers"].push_back({{"input", times},
+                                  {"output", values},
+                                  {"interpolation", kInterpolations[std::size_t(channel.interpolation)]}});
+    }
+    if (json.contains("channels")) document_["animations"].push_back(json);
+  }
+
+  std::size_t addTimes(const std::vector<float>& timesS) {
+    const std::size_t accessor = addAccessor(timesS, "SCALAR", kFloat, 0);
+    document_["accessors"][accessor]["min"] = {timesS.front()};
+    document_["accessors"][accessor]["max"] = {timesS.back()};
+    return accessor;
   }
 
   void finishScene() {

@@ -3,6 +3,7 @@
 // what is measured on them: bounds, reflectors.
 #include "catoptric/scene/world_motion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -182,6 +183,11 @@ void WorldMotion::setTime(double timeS) {
   for (const std::uint32_t p : movingParts_)
     if (world_.parts[p].reflector != core::kNoId)
       measureReflectorAgain(scene_, world_, world_.parts[p].reflector, options_);
+}
+
+bool WorldMotion::movesOnlyCameras() const {
+  return movingParts_.empty() && std::none_of(scene_.lights.begin(), scene_.lights.end(),
+                                              [this](const Light& light) { return moves(light.node); });
 }
 
 }  // namespace catoptric::scene

@@ -32,6 +32,8 @@ class WorldMotion {
 
   /// Parts whose vertices setTime() writes, ascending: the same at each time.
   [[nodiscard]] std::span<const std::uint32_t> movingParts() const { return movingParts_; }
+  /// What is seen stays as it is, wherever from.
+  [[nodiscard]] bool movesOnlyCameras() const;
   [[nodiscard]] const MotionChoice& choice() const { return choice_; }
 
  private:

@@ -35,7 +35,7 @@ TEST(ReferenceCamera, ClipSpaceAndZexelsAgree) {
 }
 
 TEST(ReferenceCamera, HemisphereIsBehindTheWindowAndEven) {
-  const auto points = makeHemisphere(kWindow, 2.0, 64);
+  const auto points = makeHemisphere(kWindow, 2.0, 64).centres;
   ASSERT_EQ(points.size(), 64u);
   for (const dvec3& p : points) {
     EXPECT_NEAR(glm::length(p - kWindow.centre), 2.0, 1e-12);
@@ -46,6 +46,22 @@ TEST(ReferenceCamera, HemisphereIsBehindTheWindowAndEven) {
     EXPECT_GT(nearest, 0.3);
     EXPECT_LT(nearest, 0.9);
   }
+}
+
+TEST(ReferenceCamera, InARoomImagesAreTakenWhereAMirroredEyeCanBe) {
+  core::Box room;
+  room.lower = {1, 1.5, 0}, room.upper = {6, 2.5, 6};  // the mirror hangs on its wall x = 1
+  const Hemisphere all = makeHemisphere(kWindow, 2.0, 64), part = makeHemisphere(kWindow, 2.0, 64, &room);
+  EXPECT_NEAR(double(part.centres.size()), 64.0, 4.0);
+  EXPECT_LT(part.spacing, 0.7 * all.spacing);
+  for (const dvec3& p : part.centres) {
+    EXPECT_LT(p.x, 1.0);
+    EXPECT_GE(p.y, room.lower.y);
+    EXPECT_LE(p.y, room.upper.y);
+  }
+  // An eye outside of its box: over all of the hemisphere.
+  room.lower = {20, 20, 20}, room.upper = {21, 21, 21};
+  EXPECT_EQ(makeHemisphere(kWindow, 2.0, 64, &room).centres.size(), 64u);
 }
 
 }  // namespace

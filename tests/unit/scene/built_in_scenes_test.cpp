@@ -11,6 +11,7 @@
 #include "catoptric/geometry/mesh_inspection.h"
 #include "catoptric/scene/gltf_import.h"
 #include "catoptric/scene/world_geometry.h"
+#include "catoptric/scene/world_motion.h"
 
 namespace catoptric::scene {
 namespace {
@@ -148,6 +149,37 @@ void checkEveryCameraSeesAMirrorsFront(const Made& m) {
   }
 }
 
+/// A corner of a flat mirror's front, or more of it.
+bool seesPartOfAMirror(const WorldGeometry& world, const Camera& camera) {
+  const dvec3 forward = glm::normalize(camera.target - camera.eye);
+  for (const Reflector& r : world.reflectors)
+    for (const vec3& p : meshOf(world, r).positions)
+      if (r.plane.signedDistance(camera.eye) > 0 &&
+          glm::dot(forward, glm::normalize(dvec3(p) - camera.eye)) > std::cos(0.5 * camera.fovYRadians))
+        return true;
+  return false;
+}
+
+/// The camera "walk" sees a mirror's front at each moment, and nothing else moves.
+void checkWalk(Made m) {
+  ASSERT_EQ(m.scene.motion.animations.size(), 1u);
+  const ReflectorOptions options;
+  WorldMotion motion(m.scene, m.geometry, options);
+  EXPECT_TRUE(motion.movesOnlyCameras());
+  dvec3 last = m.scene.cameras.back().eye;
+  ASSERT_EQ(m.scene.cameras.back().name, "walk");
+  double way = 0;
+  for (int i = 0; i <= 40; ++i) {
+    motion.setTime(m.scene.motion.animations[0].durationS * i / 40);
+    const dvec3 eye = m.scene.cameras.back().eye;
+    EXPECT_LT(glm::distance(eye, last), 0.6);
+    way += glm::distance(eye, last);
+    last = eye;
+    EXPECT_TRUE(seesPartOfAMirror(m.geometry, m.scene.cameras.back())) << i;
+  }
+  EXPECT_GT(way, 3.0);
+}
+
 void checkMirrorsFaceEachOther(const Made& m) {
   const auto& reflectors = m.geometry.reflectors;
   ASSERT_EQ(reflectors.size(), 2u);
@@ -226,6 +258,13 @@ TEST(BuiltInScenes, AllAreTested) {
 
 TEST(BuiltInScenes, BytesAreTheSameOnEveryRun) {
   EXPECT_EQ(makeBuiltInScene("drivers-view"), makeBuiltInScene("drivers-view"));
+}
+
+TEST(BuiltInScenes, WalksStayWhereMirrorsAreSeen) {
+  for (const char* name : {"checker-box", "furnished-room"}) {
+    SCOPED_TRACE(name);
+    checkWalk(make(name));
+  }
 }
 
 TEST(BuiltInScenes, UnknownNameIsRefusedWithAHint) {

@@ -105,6 +105,11 @@ void addTeapotOnPyramid(SceneBuilder& builder) {
 Scene makeCheckerBox() {
   SceneBuilder builder("checker-box");
   builder.addCamera("inside", {0.85, 1.62, 1.5}, {-0.14, 1.06, -0.55}, 56);
+  const SceneBuilder::Station walk[] = {
+      {{1.3, 1.5, 1.2}, {0, 1.1, -1.5}},      {{0.85, 1.62, 1.5}, {-0.14, 1.06, -0.8}},
+      {{0.0, 1.7, 1.45}, {-0.1, 1.05, -0.8}}, {{-0.8, 1.45, 1.2}, {0.1, 1.1, -0.9}},
+      {{-1.2, 1.3, 0.5}, {0.2, 1.15, -1.5}},  {{-1.0, 1.5, -0.4}, {0.3, 1.2, -1.6}}};
+  builder.addWalk("walk", walk, 6.0, 56);
   addBox(builder);
   addMirrorWall(builder);
   addTeapotOnPyramid(builder);

@@ -97,6 +97,11 @@ Scene makeFurnishedRoom() {
   SceneBuilder builder("furnished-room");
   builder.addCamera("to the back mirror", {1.6, 1.62, 2.1}, {-0.6, 1.25, -3.2}, 58);
   builder.addCamera("to both mirrors", {2.3, 1.65, 1.6}, {-2.6, 1.2, -1.8}, 62);
+  const SceneBuilder::Station walk[] = {
+      {{2.9, 1.62, 1.3}, {-0.6, 1.25, -3.2}}, {{2.0, 1.62, 2.2}, {-0.8, 1.25, -3.2}},
+      {{0.6, 1.65, 2.4}, {-1.2, 1.25, -3.0}}, {{-0.9, 1.65, 1.7}, {-1.6, 1.2, -3.0}},
+      {{-1.7, 1.62, 0.9}, {-3.0, 1.2, -2.0}}, {{-1.6, 1.6, 0.1}, {-4.0, 1.3, -0.6}}};
+  builder.addWalk("walk", walk, 8.0, 58);
   addShell(builder);
   addMirror(builder, "back mirror", kBack, {3.6, 1.9}, 0.5 * kSize.x);
   addMirror(builder, "left mirror", kLeft, {2.8, 1.9}, 0.5 * kSize.z);

@@ -2,6 +2,9 @@
 #include "catoptric/scene/built_in/scene_builder.h"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/gtx/spline.hpp>
 #include <utility>
 
 namespace catoptric::scene::built_in {
@@ -155,6 +158,39 @@ void SceneBuilder::addCamera(const std::string& name, const dvec3& eye, const dv
   camera.target = target;
   camera.fovYRadians = glm::radians(fovYDegrees);
   scene_.cameras.push_back(camera);
+}
+
+void SceneBuilder::addWalk(const std::string& name, std::span<const Station> stations, double durationS,
+                           double fovYDegrees) {
+  constexpr int kKeysPerStation = 8;  // key frames are joined by straight lines
+  assert(stations.size() >= 2);
+  addCamera(name, stations[0].eye, stations[0].target, fovYDegrees);
+  const int node = int(scene_.motion.nodes.size());
+  scene_.cameras.back().node = node;
+  AnimationChannel place{.node = node, .timesS = {}, .values = {}};
+  AnimationChannel turn{
+      .node = node, .property = AnimatedProperty::Rotation, .width = 4, .timesS = {}, .values = {}};
+  const int last = int(stations.size()) - 1;
+  for (int key = 0; key <= last * kKeysPerStation; ++key) {
+    const double at = double(key) / kKeysPerStation, t = at - std::min(std::floor(at), last - 1.0);
+    const auto station = [&](int offset) {
+      return stations[std::size_t(std::clamp(int(at - t) + offset, 0, last))];
+    };
+    const auto curve = [&](dvec3 Station::*point) {
+      return glm::catmullRom(station(-1).*point, station(0).*point, station(1).*point, station(2).*point, t);
+    };
+    const dvec3 eye = curve(&Station::eye), target = curve(&Station::target);
+    const glm::dquat q = glm::quat_cast(glm::inverse(dmat3(glm::lookAt(eye, target, dvec3(0, 1, 0)))));
+    for (AnimationChannel* channel : {&place, &turn}) channel->timesS.push_back(float(durationS * at / last));
+    place.values.insert(place.values.end(), {float(eye.x), float(eye.y), float(eye.z)});
+    turn.values.insert(turn.values.end(), {float(q.x), float(q.y), float(q.z), float(q.w)});
+  }
+  const std::vector<float>& q = turn.values;
+  scene_.motion.nodes.push_back({.name = name,
+                                 .translation = stations[0].eye,
+                                 .rotation = glm::dquat(q[3], q[0], q[1], q[2]),
+                                 .weights = {}});
+  scene_.motion.animations.push_back({name, durationS, {place, turn}});
 }
 
 }  // namespace catoptric::scene::built_in

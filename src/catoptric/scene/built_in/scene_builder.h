@@ -55,6 +55,12 @@ class SceneBuilder {
   /// Candela.
   void addLamp(const dvec3& position, const vec3& color, double range = 0);
   void addCamera(const std::string& name, const dvec3& eye, const dvec3& target, double fovYDegrees);
+  /// A camera that goes past all stations, on smooth curves, within the given time.
+  struct Station {
+    dvec3 eye, target;
+  };
+  void addWalk(const std::string& name, std::span<const Station> stations, double durationS,
+               double fovYDegrees);
 
   [[nodiscard]] const Scene& scene() const { return scene_; }
 
