@@ -57,6 +57,13 @@ class Bake(support.CommandTest):
                       ("--counts", "2x2x2x2")):
             self.refuse(2, words[0], "bake", "columns", "-o", "a.bake", *words)
 
+    def test_counts_from_spacing_and_error(self):
+        box = ("--box", "-0.1,1.0,2.2,0.2,1.3,2.4", "--rays", "16", "--depth", "1")
+        for words, counts in ((("--spacing", "0.1"), [4, 4, 3]), (("--max-error", "0.02"), [7, 7, 5])):
+            self.succeed("bake", "columns", "-o", "a.bake", *box, *words)
+            self.assertEqual(self.json_of("info", "a.bake")["baked"]["counts"], counts)
+        self.refuse(2, "exclude", "bake", "columns", "-o", "a.bake", "--counts", "2x2x2", "--spacing", "1")
+
     def test_only_a_file_is_written_to(self):
         os.mkfifo(self.path("pipe"))
         os.mkdir(self.path("folder"))

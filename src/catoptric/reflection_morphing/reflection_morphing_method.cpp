@@ -93,7 +93,7 @@ void ReflectionMorphingMethod::morph(raster::FrameContext& frame, const raster::
   const std::size_t count = objects.objects.positions.size();
   auto start = std::chrono::steady_clock::now();
   if (dynamic_ || corners.points.size() != count) {
-    lookUpCorners(trace, objects.objects.positions, corners);
+    lookUpCorners(trace, objects.objects.positions, objects.objects.indices, corners);
     frame.counters.lookedUpVertices += count;
     frame.counters.lookUpMs += millisecondsSince(start);
   }

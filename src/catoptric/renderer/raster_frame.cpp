@@ -266,21 +266,26 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   frame.counters.reflectorsCulled = geometry_.reflectors.size() - visibleReflectors;
 }
 
-void RasterFrame::prepareMorphing(const FrameOptions& options) {
+void RasterFrame::prepareMorphing(const dvec3& eye, const FrameOptions& options) {
+  using namespace reflection_morphing;
   morphing_.setDynamic(options.allDynamic);
-  const std::string name =
-      options.bakedFile.empty() ? "bounces " + std::to_string(options.bounces) : "file " + options.bakedFile;
-  if (morphing_.hasSource() && name == morphingSource_) return;
-  if (options.bakedFile.empty()) {
-    reflection_morphing::BakePlan plan = reflection_morphing::makeDefaultPlan(geometry_);
-    plan.options.map.bounces = std::max(options.bounces, 1);
-    morphing_.setSource(std::make_shared<reflection_morphing::OnTheFly>(geometry_, plan));
-  } else {
-    const auto file = std::make_shared<reflection_morphing::BakedFile>(options.bakedFile);
+  if (!options.bakedFile.empty()) {
+    if (morphing_.hasSource() && options.bakedFile == morphingFile_) return;
+    const auto file = std::make_shared<BakedFile>(options.bakedFile);
     file->checkScene(geometry_);
     morphing_.setSource(file);
+  } else {
+    BakePlan plan = makePlanAround(geometry_, eye);
+    plan.options.map.bounces = std::max(options.bounces, 1);
+    // Of a finer grid than is needed no eye within it asks for another one.
+    const bool fits = morphing_.hasSource() && morphingFile_.empty() && morphingPlan_.grid.findCell(eye) &&
+                      morphingPlan_.grid.spacing().x <= 1.001 * plan.grid.spacing().x &&
+                      morphingPlan_.options.map.bounces == plan.options.map.bounces;
+    if (fits) return;
+    morphing_.setSource(std::make_shared<OnTheFly>(geometry_, plan));
+    morphingPlan_ = plan;
   }
-  morphingSource_ = name;
+  morphingFile_ = options.bakedFile;
 }
 
 void RasterFrame::readSeen(const raster::Level& level, Frame& frame) const {
@@ -311,7 +316,7 @@ Frame RasterFrame::render(const scene::CameraFrame& camera, const FrameOptions& 
   const int samples = std::max(1, options.samples);
   prepareLevels(1, options.widthPx, options.heightPx);
   virtual_.setSolver(virtualObjectSolver(options.solver));
-  if (options.method == Method::Morphing) prepareMorphing(options);
+  if (options.method == Method::Morphing) prepareMorphing(camera.eye, options);
   zexel_.setOptions(options.zexel);
   environment_.setOptions(options.environmentMapSize, options.boxCorrected);
   frame.radiance = core::ImageRgbaF(options.widthPx, options.heightPx, vec4(0, 0, 0, 1));

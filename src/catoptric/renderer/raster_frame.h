@@ -38,7 +38,7 @@ class RasterFrame {
                                                       bool& isComplete);
   [[nodiscard]] raster::ReflectionMethod* pickMethod(const raster::Chain& chain, const FrameOptions& options);
   /// Opens the baked file, or makes ready to bake where the eye is.
-  void prepareMorphing(const FrameOptions& options);
+  void prepareMorphing(const dvec3& eye, const FrameOptions& options);
   void readSeen(const raster::Level& level, Frame& frame) const;
   /// chooseNearPlane(), once for each place of the eye.
   [[nodiscard]] double findNearPlane(const scene::CameraFrame& camera);
@@ -54,7 +54,9 @@ class RasterFrame {
   virtual_object::ExactMethod exact_;
   environment_map::EnvironmentMapMethod environment_;
   reflection_morphing::ReflectionMorphingMethod morphing_;
-  std::string morphingSource_;  ///< what morphing_ has its locations from
+  std::string
+      morphingFile_;  ///< what morphing_ has its locations from; empty: from morphingPlan_, on the fly
+  reflection_morphing::BakePlan morphingPlan_;
   depth_reflection_map::DepthReflectionMapMethod zexel_;
   /// All of them, in no order that matters.
   std::array<raster::ReflectionMethod*, 6> methods_{&planar_, &virtual_,     &exact_,

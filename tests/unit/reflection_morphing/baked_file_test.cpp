@@ -12,6 +12,7 @@
 
 #include "catoptric/core/error.h"
 #include "catoptric/core/file.h"
+#include "catoptric/reflection_morphing/find_ray.h"
 #include "mirror_world.h"
 
 namespace catoptric::reflection_morphing {
