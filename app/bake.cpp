@@ -31,6 +31,7 @@ struct Options {
   std::optional<glm::uvec3> counts;
   std::optional<double> spacing, maxErrorPx;
   int rays = 256, depth = 5, bounces = 1;
+  bool keepStatic = false;
   SceneOptions scene;
   OutputOptions output;
 };
@@ -90,6 +91,7 @@ BakePlan makePlan(const Options& options, const scene::WorldGeometry& world) {
                     std::max({spacing.x, spacing.y, spacing.z}), needed, error));
   plan.options.map.size = options.rays;
   plan.options.map.bounces = options.bounces;
+  plan.options.map.keepStatic = options.keepStatic;
   plan.options.octree.depth = options.depth;
   return plan;
 }
@@ -189,6 +191,8 @@ Command makeBakeCommand() {
                              setInteger("--depth", options->depth, 0, kMostDepth));
             arguments.option("--bounces", "N", "Mirrors in mirrors, to this depth; default 1",
                              setInteger("--bounces", options->bounces, 1, kMostBounces));
+            arguments.flag("--keep-static", "Rays end at diffuse objects, which then must not move",
+                           options->keepStatic);
             declareScene(arguments, options->scene);
             declareOutput(arguments, options->output);
           },

@@ -60,6 +60,7 @@ Json makeFrameJson(const renderer::FrameOptions& options, const renderer::Frame&
            {{"virtual_vertices", counters.virtualVertices},
             {"culled_vertices", counters.culledVertices},
             {"virtual_triangles", counters.virtualTriangles},
+            {"looked_up_vertices", counters.lookedUpVertices},
             {"fragment_tests", counters.fragmentTests},
             {"reflectors_drawn", counters.reflectorsDrawn},
             {"reflectors_culled", counters.reflectorsCulled},

@@ -304,9 +304,12 @@ TessellatedObjects tessellateForReflector(const scene::WorldGeometry& geometry, 
   k = std::min(k, 0.5);
   const double asked = k;
 
+  const auto isCut = [&](std::size_t p) {
+    return p != own && (options.parts.empty() || options.parts[p] != 0);
+  };
   std::size_t uncut = 0;
   for (std::uint32_t p = 0; p < geometry.parts.size(); ++p)
-    if (p != own) uncut += geometry.parts[p].indexCount / 3;
+    if (isCut(p)) uncut += geometry.parts[p].indexCount / 3;
   const std::size_t budget = std::max(options.maxTriangles, uncut);
 
   std::vector<PartPieces> pieces(geometry.parts.size());
@@ -314,7 +317,7 @@ TessellatedObjects tessellateForReflector(const scene::WorldGeometry& geometry, 
     std::atomic<std::size_t> made{0};
     core::parallelFor(geometry.parts.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t p = begin; p < end; ++p)
-        if (p != own)
+        if (isCut(p))
           pieces[p] = PartCutter(geometry, geometry.parts[p], distance, float(k), budget, made).cut();
     });
     if (made.load() <= budget) break;

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "catoptric/core/math.h"
@@ -42,6 +43,7 @@ struct TessellationOptions {
   double maxErrorPx = 0.5;            ///< aim: how far the drawn image of an edge may be from the true one
   double reflectorDiameterPx = 700;   ///< at which size of the reflector on the screen (bounding sphere)
   std::size_t maxTriangles = 600000;  ///< budget; when hit, k is raised and one warning says so
+  std::span<const std::uint8_t> parts{};  ///< by part: 0 leaves it out; empty: all parts
 };
 
 /// For TessellationOptions::reflectorDiameterPx: the diameter of the reflector's bounding sphere as this

@@ -144,7 +144,7 @@ std::vector<BakedLocation> bakeToFile(const scene::WorldGeometry& world, const B
   progress.advance(file.recordCount());
 
   // 2
-  const MirrorRays rays(world);
+  const MirrorRays rays(world, plan.options.map.keepStatic);
   const auto batch = std::size_t(core::threadCount());
   std::vector<std::vector<std::byte>> records(batch);
   std::vector<BakedLocation> described(batch);

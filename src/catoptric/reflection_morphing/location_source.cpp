@@ -41,6 +41,7 @@ BakePlan makeDefaultPlan(const scene::WorldGeometry& world) {
   BakePlan plan;
   plan.options.octree.box = makeLookUpBox(world);
   const core::Box& box = plan.options.octree.box;
+  plan.options.map.mapped = listMapped(world);
   plan.grid = makeGrid(box, findSpacing(world, box, kDefaultMaxErrorPx), kMostDefaultCells);
   return plan;
 }
@@ -49,6 +50,7 @@ BakePlan makePlanAround(const scene::WorldGeometry& world, const dvec3& eye) {
   constexpr double kCells = 512;  // each way from the eye
   BakePlan plan;
   plan.options.octree.box = makeLookUpBox(world);
+  plan.options.map.mapped = listMapped(world);
   double spacing = findSpacing(world, {eye, eye}, kDefaultMaxErrorPx);
   if (!(spacing > 0)) spacing = std::max(world.bounds.radius(), 1e-6);
   spacing =

@@ -46,7 +46,8 @@ inline constexpr std::uint32_t kMostDefaultCells = 64;
 class OnTheFly : public LocationSource {
  public:
   /// `world` must outlive the object.
-  OnTheFly(const scene::WorldGeometry& world, const BakePlan& plan) : rays_(world), plan_(plan) {}
+  OnTheFly(const scene::WorldGeometry& world, const BakePlan& plan)
+      : rays_(world, plan.options.map.keepStatic), plan_(plan) {}
   [[nodiscard]] const SamplingGrid& grid() const override { return plan_.grid; }
   [[nodiscard]] std::shared_ptr<const SamplingLocation> load(std::uint32_t index) const override {
     return unpackLocation(bakeLocation(rays_, plan_.grid.location(index), plan_.options),

@@ -1,27 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "catoptric/reflection_morphing/mirror_rays.h"
 
+#include <limits>
+
 namespace catoptric::reflection_morphing {
 namespace {
 
 constexpr double kLeastSegment = 1e-7;  // of the scene's radius
 
-std::vector<geometry::HierarchyTriangle> listMirrorTriangles(const scene::WorldGeometry& world) {
+std::vector<geometry::HierarchyTriangle> listTriangles(const scene::WorldGeometry& world, bool ofReflectors) {
   std::vector<geometry::HierarchyTriangle> triangles;
   for (std::uint32_t t = 0; t < world.triangleCount(); ++t) {
     const std::uint32_t reflector = world.parts[world.triangleParts[t]].reflector;
-    if (reflector == core::kNoId) continue;
+    if ((reflector != core::kNoId) != ofReflectors) continue;
     const auto corner = [&](std::uint32_t k) { return world.positions[world.indices[3 * t + k]]; };
     triangles.push_back({corner(0), corner(1), corner(2), t, world.triangleParts[t],
-                         world.reflectors[reflector].doubleSided ? geometry::kTwoSided : 0});
+                         !ofReflectors || world.reflectors[reflector].doubleSided ? geometry::kTwoSided : 0});
   }
   return triangles;
 }
 
 }  // namespace
 
-MirrorRays::MirrorRays(const scene::WorldGeometry& world)
-    : world_(world), least_(kLeastSegment * world.bounds.radius()), hierarchy_(listMirrorTriangles(world)) {}
+MirrorRays::MirrorRays(const scene::WorldGeometry& world, bool withObstacles)
+    : world_(world),
+      least_(kLeastSegment * world.bounds.radius()),
+      hierarchy_(listTriangles(world, true)),
+      obstacles_(withObstacles ? listTriangles(world, false) : std::vector<geometry::HierarchyTriangle>()) {}
+
+double MirrorRays::findObstacle(const ReflectedRay& ray) const {
+  const auto hit = geometry::findNearestHit(obstacles_, ray.origin, ray.direction, least_, core::kNoId);
+  return hit ? hit->distance : std::numeric_limits<double>::infinity();
+}
 
 bool MirrorRays::reflect(ReflectedRay& ray, std::uint32_t& triangle) const {
   const auto hit = geometry::findNearestHit(hierarchy_, ray.origin, ray.direction, least_, triangle);

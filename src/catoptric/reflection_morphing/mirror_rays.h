@@ -26,7 +26,8 @@ struct ReflectedRay {
 
 class MirrorRays {
  public:
-  explicit MirrorRays(const scene::WorldGeometry& world);
+  /// `world` must outlive the object. `withObstacles`: findObstacle() will be called.
+  explicit MirrorRays(const scene::WorldGeometry& world, bool withObstacles = false);
 
   /// Follows a ray (unit direction) over at most `bounces` mirrors. Calls visit(ray) after each mirror.
   template <class Visit>
@@ -41,6 +42,9 @@ class MirrorRays {
     }
   }
 
+  /// How far the ray goes before it meets a surface that is no reflector; infinity.
+  [[nodiscard]] double findObstacle(const ReflectedRay& ray) const;
+
   [[nodiscard]] const scene::WorldGeometry& world() const { return world_; }
 
  private:
@@ -49,7 +53,7 @@ class MirrorRays {
 
   const scene::WorldGeometry& world_;
   double least_ = 0;  ///< shortest segment between two mirrors
-  geometry::TriangleHierarchy hierarchy_;
+  geometry::TriangleHierarchy hierarchy_, obstacles_;
 };
 
 }  // namespace catoptric::reflection_morphing

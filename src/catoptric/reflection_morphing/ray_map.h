@@ -45,6 +45,7 @@ struct RayMap {
   int size = 0;            ///< texels along an edge
   std::vector<RayTexel> texels;
   std::vector<TexelState> states;
+  std::vector<float> lengths;       ///< of each ray, where static objects are kept; while it is being baked
   std::vector<std::uint8_t> cells;  ///< 1 where isCell(); made by continueRayMap()
 
   [[nodiscard]] std::size_t at(int x, int y) const {
@@ -68,7 +69,13 @@ struct RayMap {
 struct RayMapOptions {
   int size = 256;  ///< rays along an edge of a map
   int bounces = 1;
+  bool keepStatic = false;  ///< rays end at diffuse objects, which then must not move
+  /// Reflectors that environment maps will draw (2004, section 7): their traces are left out.
+  std::vector<std::uint32_t> mapped{};
 };
+
+/// The reflectors with Reflector::morphed == false.
+[[nodiscard]] std::vector<std::uint32_t> listMapped(const scene::WorldGeometry& world);
 
 /// The maps of all traces with a curved mirror that are seen from `location`; sorted by trace. Only the Ray
 /// texels are filled.

@@ -3,6 +3,8 @@
 // into the next level, 4 again for mirrors in mirrors, 5 blend from the last level to the first.
 #include "catoptric/renderer/raster_frame.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,6 +12,7 @@
 #include <map>
 
 #include "catoptric/core/error.h"
+#include "catoptric/core/log.h"
 #include "catoptric/core/parallel.h"
 #include "catoptric/core/sample_pattern.h"
 #include "catoptric/geometry/mesh_measures.h"
@@ -117,7 +120,9 @@ void RasterFrame::updateGeometry(std::span<const std::uint32_t> movedParts) {
   scene_.updateGeometry(movedParts);
   nearPlane_ = 0;
   primary_.geometryChanged();
-  for (raster::ReflectionMethod* method : methods_) method->geometryChanged();
+  for (raster::ReflectionMethod* method : methods_)
+    if (method != &morphing_) method->geometryChanged();
+  morphing_.partsMoved(geometry_, movedParts);
 }
 
 void RasterFrame::prepareLevels(int count, int widthPx, int heightPx) {
@@ -175,11 +180,26 @@ std::vector<raster::Chain> RasterFrame::findChains(const raster::Level& level,
   return chains;
 }
 
+/// Hybrid reflectors (2004, section 7): large parts are morphed, small ones get environment maps, unless the
+/// user says otherwise.
+bool RasterFrame::isMapped(const raster::Chain& chain, const FrameOptions& options) const {
+  const scene::Reflector& mirror = geometry_.reflectors[chain.last];
+  const bool isSmall = chain.pixels < std::uint64_t(options.mappedBelowPixels);
+  const bool mapped = mirror.morphed ? !*mirror.morphed : isSmall;
+  if (mapped)
+    core::logInfo(fmt::format(
+        "reflector '{}': environment map, {}", mirror.name,
+        mirror.morphed ? "by " + mirror.morphedReason
+                       : fmt::format("{} pixels, fewer than {}", chain.pixels, options.mappedBelowPixels)));
+  return mapped;
+}
+
 raster::ReflectionMethod* RasterFrame::pickMethod(const raster::Chain& chain, const FrameOptions& options) {
   if (options.method == Method::Environment) return &environment_;
   if (chain.hasRefractor()) return &exact_;
   if (options.method == Method::Zexel && zexel_.supports(chain)) return &zexel_;
   const bool isMorphing = options.method == Method::Morphing;
+  if (isMorphing && chain.curved && isMapped(chain, options)) return &environment_;
   const bool needsExact =
       chain.hasSecondCurved ||
       (chain.curved && Renderer::chooseMethod(geometry_.reflectors[*chain.curved]).solver == Solver::Exact);

@@ -36,6 +36,7 @@ class RasterFrame {
   [[nodiscard]] std::vector<raster::Chain> findChains(const raster::Level& level,
                                                       const std::vector<raster::Chain>& parents, int bounces,
                                                       bool& isComplete);
+  [[nodiscard]] bool isMapped(const raster::Chain& chain, const FrameOptions& options) const;
   [[nodiscard]] raster::ReflectionMethod* pickMethod(const raster::Chain& chain, const FrameOptions& options);
   /// Opens the baked file, or makes ready to bake where the eye is.
   void prepareMorphing(const dvec3& eye, const FrameOptions& options);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <span>
 
@@ -35,6 +36,7 @@ class GlbBuilder {
     for (const Instance& instance : scene_.instances) addInstance(instance);
     for (const Light& light : scene_.lights) addLight(light);
     for (const Camera& camera : scene_.cameras) addCamera(camera);
+    for (const Animation& animation : scene_.motion.animations) addAnimation(animation);
     finishScene();
     return assemble();
   }
@@ -144,7 +146,18 @@ class GlbBuilder {
     if (!instance.name.empty()) node["name"] = instance.name;
     const Json hint = makeHintJson(instance.hint);
     if (!hint.is_null()) node["extras"]["catoptric"] = hint;
-    addNode(std::move(node), instance.worldFromMesh);
+    if (instance.node < 0) {
+      addNode(std::move(node), instance.worldFromMesh);
+      return;
+    }
+    const MotionNode& moving = scene_.motion.nodes.at(std::size_t(instance.node));
+    assert(moving.parent < 0 && !moving.hasMatrix && instance.nodeFromMesh == dmat4(1.0));
+    nodeOf_[instance.node] = document_["nodes"].size();
+    node["translation"] = makeVectorJson(vec3(moving.translation));
+    const glm::dquat& q = moving.rotation;
+    node["rotation"] = {q.x, q.y, q.z, q.w};
+    node["scale"] = makeVectorJson(vec3(moving.scale));
+    document_["nodes"].push_back(node);
   }
 
   void addLight(const Light& light) {
@@ -176,6 +189,30 @@ class GlbBuilder {
          {"perspective", {{"yfov", makeNumber(float(camera.fovYRadians))}, {"znear", 0.01}}}});
     const Json node = {{"name", camera.name}, {"camera", document_["cameras"].size() - 1}};
     addNode(node, glm::inverse(glm::lookAt(camera.eye, camera.target, camera.up)));
+  }
+
+  void addAnimation(const Animation& animation) {
+    constexpr const char* kPaths[] = {"translation", "rotation", "scale", "weights"};
+    constexpr const char* kInterpolations[] = {"STEP", "LINEAR", "CUBICSPLINE"};
+    Json json = {{"name", animation.name}};
+    for (const AnimationChannel& channel : animation.channels) {
+      const std::size_t times = addAccessor(channel.timesS, "SCALAR", kFloat, 0);
+      document_["accessors"][times]["min"] = {channel.timesS.front()};
+      document_["accessors"][times]["max"] = {channel.timesS.back()};
+      const std::size_t values = addAccessor(channel.values, "SCALAR", kFloat, 0);
+      if (channel.property != AnimatedProperty::Weights) {
+        document_["accessors"][values]["type"] = channel.width == 4 ? "VEC4" : "VEC3";
+        document_["accessors"][values]["count"] = channel.values.size() / channel.width;
+      }
+      json["samplers"].push_back({{"input", times},
+                                  {"output", values},
+                                  {"interpolation", kInterpolations[std::size_t(channel.interpolation)]}});
+      json["channels"].push_back(
+          {{"sampler", json["samplers"].size() - 1},
+           {"target",
+            {{"node", nodeOf_.at(channel.node)}, {"path", kPaths[std::size_t(channel.property)]}}}});
+    }
+    document_["animations"].push_back(json);
   }
 
   void finishScene() {
@@ -218,6 +255,7 @@ class GlbBuilder {
   Json document_;
   std::vector<std::byte> binary_;
   ExtensionNames used_;
+  std::map<int, std::size_t> nodeOf_;  ///< by node of the motion
 };
 
 }  // namespace
