@@ -110,6 +110,8 @@ std::string makeSummary(const LoadedScene& loaded) {
 
 /// How reflection morphing draws a curved mirror, and why.
 std::string describeMorphing(const scene::Reflector& reflector) {
+  if (reflector.isRefractor() && !reflector.morphed.value_or(false))
+    return "by solver exact, unless --morphed or extras.catoptric.morphed says otherwise";
   if (!reflector.morphed)
     return fmt::format(
         "itself where it covers {} pixels or more (--mapped-below), else by an environment map",
@@ -136,6 +138,8 @@ std::string makeReflectorTable(const LoadedScene& loaded) {
     reasons += fmt::format("{}: a {} by {}; {} because {}\n", withoutControlCharacters(reflector.name),
                            reflector.isRefractor() ? "refractor" : "mirror", reflector.reason,
                            methodText(choice), choice.reason);
+    if (reflector.isRefractor())
+      reasons += fmt::format("  method morphing: drawn {}\n", describeMorphing(reflector));
     if (reflector.shape == scene::ReflectorShape::Plane || reflector.isRefractor()) continue;
     reasons += choice.analytic.empty()
                    ? fmt::format("  solver analytic: the {} that its vertices leave by at most {:.2g} m\n",

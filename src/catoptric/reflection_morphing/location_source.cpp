@@ -15,14 +15,16 @@ core::Box makeLookUpBox(const scene::WorldGeometry& world) {
 double findSpacing(const scene::WorldGeometry& world, const core::Box& eyes, double maxErrorPx) {
   // The point of a ball's surface in which something is seen moves with the eye, and its second derivative
   // falls with the square of the distance: error_px = kErrorPx (spacing / distance)^2, fitted to the 95th
-  // percentile that tests/unit/reflection_morphing prints. Nearer than its radius no eye is assumed.
-  constexpr double kErrorPx = 33;
+  // percentile that tests/unit/reflection_morphing prints. Nearer than its radius no eye is assumed. What a
+  // lens shows is magnified, and so is its error.
+  constexpr double kErrorPx = 33, kRefractorShare = 0.35;
   double nearest = 0;
   for (const scene::Reflector& r : world.reflectors) {
-    if (r.shape == scene::ReflectorShape::Plane || !(r.radius > 0)) continue;
+    if (r.isPlanarMirror() || !(r.radius > 0)) continue;
     const dvec3 closest = glm::clamp(r.centre, eyes.lower, eyes.upper);
     const double distance = std::max(glm::length(closest - r.centre), r.radius);
-    nearest = nearest == 0 ? distance : std::min(nearest, distance);
+    const double reach = r.isRefractor() ? kRefractorShare * distance : distance;
+    nearest = nearest == 0 ? reach : std::min(nearest, reach);
   }
   return nearest * std::sqrt(maxErrorPx / kErrorPx);
 }

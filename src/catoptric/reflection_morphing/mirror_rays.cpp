@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "catoptric/scene/shading.h"
+
 namespace catoptric::reflection_morphing {
 namespace {
 
@@ -14,8 +16,10 @@ std::vector<geometry::HierarchyTriangle> listTriangles(const scene::WorldGeometr
     const std::uint32_t reflector = world.parts[world.triangleParts[t]].reflector;
     if ((reflector != core::kNoId) != ofReflectors) continue;
     const auto corner = [&](std::uint32_t k) { return world.positions[world.indices[3 * t + k]]; };
-    triangles.push_back({corner(0), corner(1), corner(2), t, world.triangleParts[t],
-                         !ofReflectors || world.reflectors[reflector].doubleSided ? geometry::kTwoSided : 0});
+    const bool isTwoSided =
+        !ofReflectors || world.reflectors[reflector].doubleSided || world.reflectors[reflector].isRefractor();
+    triangles.push_back(
+        {corner(0), corner(1), corner(2), t, world.triangleParts[t], isTwoSided ? geometry::kTwoSided : 0});
   }
   return triangles;
 }
@@ -33,7 +37,7 @@ double MirrorRays::findObstacle(const ReflectedRay& ray) const {
   return hit ? hit->distance : std::numeric_limits<double>::infinity();
 }
 
-bool MirrorRays::reflect(ReflectedRay& ray, std::uint32_t& triangle) const {
+bool MirrorRays::passOn(ReflectedRay& ray, std::uint32_t& triangle) const {
   const auto hit = geometry::findNearestHit(hierarchy_, ray.origin, ray.direction, least_, triangle);
   if (!hit) return false;
   triangle = hit->triangle;
@@ -43,10 +47,23 @@ bool MirrorRays::reflect(ReflectedRay& ray, std::uint32_t& triangle) const {
   const double length = glm::length(normal);
   if (!(length > 0)) return false;
   normal /= length;
+  const std::uint32_t index = world_.parts[world_.triangleParts[triangle]].reflector;
+  const scene::Reflector& reflector = world_.reflectors[index];
   ray.origin += hit->distance * ray.direction;
   (ray.trace.empty() ? ray.distance : ray.between) += hit->distance;
-  ray.direction = glm::normalize(core::reflectDirection(ray.direction, normal));
-  ray.trace.push_back(world_.parts[world_.triangleParts[triangle]].reflector);
+  ray.trace.push_back(index);
+  if (!reflector.isRefractor()) {
+    ray.direction = glm::normalize(core::reflectDirection(ray.direction, normal));
+    ++ray.mirrors;
+    return true;
+  }
+  const double eta = double(scene::glsl::relativeIndex(reflector.ior, hit->isFront));
+  const dvec3 refracted = glm::refract(ray.direction, hit->isFront ? normal : -normal, eta);
+  ++ray.crossings;
+  ray.isTotal = refracted == dvec3(0);
+  if (ray.isTotal) return true;
+  ray.direction = glm::normalize(refracted);
+  ray.medium = hit->isFront ? index : core::kNoId;
   return true;
 }
 

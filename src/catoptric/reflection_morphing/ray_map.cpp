@@ -22,12 +22,14 @@ namespace catoptric::reflection_morphing {
 namespace {
 
 constexpr int kCoarseSize = 64;           // rays along an edge of step 1
+constexpr std::size_t kMostLinks = 64;    // of a trace
+constexpr int kMostTotalShare = 50;       // 1 / the share of a trace's rays that may be reflected totally
 constexpr int kLeastRays = 8;             // of them for a trace; smaller ones are left to environment maps
 constexpr double kWidestHalfAngle = 2.6;  // radians; from inside a mirror's bounding sphere
 
 struct Window {
   vec2 lower{1e30f}, upper{-1e30f};
-  int rays = 0;
+  int rays = 0, totalRays = 0;
 };
 
 struct FirstMirror {
@@ -50,9 +52,8 @@ FirstMirror aimAt(const scene::Reflector& mirror, const dvec3& location) {
 bool isWanted(const Trace& trace, const scene::WorldGeometry& world, const RayMapOptions& options) {
   for (const std::uint32_t mapped : options.mapped)
     if (std::find(trace.begin(), trace.end(), mapped) != trace.end()) return false;
-  return std::any_of(trace.begin(), trace.end(), [&](std::uint32_t reflector) {
-    return world.reflectors[reflector].shape != scene::ReflectorShape::Plane;
-  });
+  return std::any_of(trace.begin(), trace.end(),
+                     [&](std::uint32_t reflector) { return !world.reflectors[reflector].isPlanarMirror(); });
 }
 
 /// Step 1 for one mirror.
@@ -63,10 +64,14 @@ std::map<Trace, Window> findWindows(const MirrorRays& rays, const dvec3& locatio
   for (int y = 0; y < kCoarseSize; ++y)
     for (int x = 0; x < kCoarseSize; ++x) {
       const vec2 p = (vec2(x, y) + 0.5f) * step - first.extent;
-      rays.follow(location, glm::normalize(dvec3(first.chart.directionAt(p))), options.bounces,
+      rays.follow(location, glm::normalize(dvec3(first.chart.directionAt(p))), options.bounces, kMostLinks,
                   [&](const ReflectedRay& ray) {
                     if (ray.trace.front() != reflector || !isWanted(ray.trace, rays.world(), options)) return;
                     Window& window = windows[ray.trace];
+                    if (ray.isTotal) {
+                      ++window.totalRays;
+                      return;
+                    }
                     ++window.rays;
                     window.lower = glm::min(window.lower, p - step);
                     window.upper = glm::max(window.upper, p + step);
@@ -94,9 +99,9 @@ RayMap traceWindow(const MirrorRays& rays, const dvec3& location, const Chart& c
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {
       const vec2 p = map.lower + vec2(x, y) * map.step;
-      rays.follow(location, glm::normalize(dvec3(chart.directionAt(p))), int(trace.size()),
+      rays.follow(location, glm::normalize(dvec3(chart.directionAt(p))), options.bounces, trace.size(),
                   [&](const ReflectedRay& ray) {
-                    if (ray.trace != trace) return;
+                    if (ray.trace != trace || ray.isTotal) return;
                     map.texels[map.at(x, y)] = {vec3(ray.origin), float(ray.distance), vec3(ray.direction),
                                                 float(ray.between)};
                     map.states[map.at(x, y)] = TexelState::Ray;
@@ -133,7 +138,7 @@ std::size_t RayMap::countRays() const {
 std::vector<std::uint32_t> listMapped(const scene::WorldGeometry& world) {
   std::vector<std::uint32_t> mapped;
   for (std::uint32_t r = 0; r < world.reflectors.size(); ++r)
-    if (world.reflectors[r].morphed && !*world.reflectors[r].morphed) mapped.push_back(r);
+    if (!world.reflectors[r].morphed.value_or(!world.reflectors[r].isRefractor())) mapped.push_back(r);
   return mapped;
 }
 
@@ -144,7 +149,7 @@ std::vector<RayMap> traceRayMaps(const MirrorRays& rays, const dvec3& location,
   for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
     const FirstMirror first = aimAt(reflectors[r], location);
     for (const auto& [trace, window] : findWindows(rays, location, r, first, options))
-      if (window.rays >= kLeastRays)
+      if (window.rays >= kLeastRays && window.totalRays * kMostTotalShare <= window.rays)
         maps.push_back(traceWindow(rays, location, first.chart, trace, window, options));
   }
   std::sort(maps.begin(), maps.end(), [](const RayMap& a, const RayMap& b) { return a.trace < b.trace; });

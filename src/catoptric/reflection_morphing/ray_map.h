@@ -70,11 +70,12 @@ struct RayMapOptions {
   int size = 256;  ///< rays along an edge of a map
   int bounces = 1;
   bool keepStatic = false;  ///< rays end at diffuse objects, which then must not move
-  /// Reflectors that environment maps will draw (2004, section 7): their traces are left out.
+  /// Reflectors that other methods will draw (2004, section 7): their traces are left out.
   std::vector<std::uint32_t> mapped{};
 };
 
-/// The reflectors with Reflector::morphed == false.
+/// The reflectors that the user has not morphed, and the refractors that he has not asked to be: what stands
+/// near the focus of a lens cannot be drawn by moving its vertices.
 [[nodiscard]] std::vector<std::uint32_t> listMapped(const scene::WorldGeometry& world);
 
 /// The maps of all traces with a curved mirror that are seen from `location`; sorted by trace. Only the Ray

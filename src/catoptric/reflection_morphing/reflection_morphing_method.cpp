@@ -132,9 +132,8 @@ void ReflectionMorphingMethod::drawObjects(raster::FrameContext& frame, const ra
                                            raster::Level& target) {
   // 1
   const auto& reflectors = frame.scene.geometry().reflectors;
-  const auto lastCurved = std::find_if(chain.mirrors.rbegin(), chain.mirrors.rend(), [&](std::uint32_t r) {
-    return reflectors[r].shape != scene::ReflectorShape::Plane;
-  });
+  const auto lastCurved = std::find_if(chain.mirrors.rbegin(), chain.mirrors.rend(),
+                                       [&](std::uint32_t r) { return !reflectors[r].isPlanarMirror(); });
   const ObjectsKey key{*lastCurved,
                        raster::findTessellationSize(reflectors[*lastCurved], frame.camera.eye, frame.camera),
                        areMoving};
@@ -150,10 +149,10 @@ void ReflectionMorphingMethod::drawObjects(raster::FrameContext& frame, const ra
   raster::SurfaceView view;
   view.clipFromDraw = raster::makeClipFromWorld(frame.camera, frame.nearPlane, frame.jitterPx);
   view.eye = view.drawEye = frame.camera.eye;
-  view.windingFlipped = chain.level % 2 == 1;
+  view.windingFlipped = (chain.level - chain.crossings) % 2 == 1;
   view.chain = &chain;
   view.parent = &parent;
-  if (reflectors[chain.last].shape == scene::ReflectorShape::Plane)
+  if (reflectors[chain.last].isPlanarMirror())
     raster::clipAtLastMirror(reflectors[chain.last], chain.last,
                              reflectors[chain.mirrors[chain.mirrors.size() - 2]].centre, view);
   objects.pass.draw(frame, view, objects.virtualPositions, corners.kinds, objects.mirrorPoints, scenePoints,

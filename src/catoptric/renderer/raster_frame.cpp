@@ -196,7 +196,10 @@ bool RasterFrame::isMapped(const raster::Chain& chain, const FrameOptions& optio
 
 raster::ReflectionMethod* RasterFrame::pickMethod(const raster::Chain& chain, const FrameOptions& options) {
   if (options.method == Method::Environment) return &environment_;
-  if (chain.hasRefractor()) return &exact_;
+  if (chain.hasRefractor()) {
+    if (options.method == Method::Morphing && morphing_.supports(chain)) return &morphing_;
+    return &exact_;
+  }
   if (options.method == Method::Zexel && zexel_.supports(chain)) return &zexel_;
   const bool isMorphing = options.method == Method::Morphing;
   if (isMorphing && chain.curved && isMapped(chain, options)) return &environment_;

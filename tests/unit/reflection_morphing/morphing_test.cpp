@@ -142,6 +142,41 @@ TEST(FindRay, overTwoMirrors) {
   }
 }
 
+/// What is seen in a ball of glass of 0.4 m, as far as it lies behind the focus.
+TEST(FindRay, throughABallOfGlass) {
+  scene::WorldGeometry world = makeMirrorWorld({makeSphereAt(dvec3(0), 0.4)});
+  world.reflectors[0].ior = 1.5f;
+  EXPECT_EQ(listMapped(world), std::vector<std::uint32_t>{0});  // unless it is asked for
+  world.reflectors[0].morphed = true;
+  EXPECT_TRUE(listMapped(world).empty());
+  const MirrorRays rays(world);
+  // Snell's law once: along the axis nothing bends, and the paraxial focus lies at n R / (2 (n - 1)).
+  const Trace through{0, 0};
+  for (const double offset : {0.0, 0.01}) {
+    std::size_t seen = 0;
+    rays.follow({offset, 0, 2}, {0, 0, -1}, 1, 64, [&](const ReflectedRay& ray) {
+      ++seen;
+      EXPECT_EQ(ray.trace, through);
+      EXPECT_NEAR(ray.between, 0.8, 1e-3);
+      if (offset > 0) {
+        EXPECT_NEAR(ray.origin.z + ray.direction.z * ray.origin.x / -ray.direction.x, -0.6, 0.01);
+      }
+    });
+    EXPECT_EQ(seen, 1u);
+  }
+  const auto location = makeLocation(rays, kEye, makeOptions(world));
+  ASSERT_EQ(location->traces.size(), 1u);
+  const SampledTrace* sampled = location->findTrace(through);
+  ASSERT_NE(sampled, nullptr);
+  std::vector<double> errors;
+  for (const KnownPoint& known : makeKnownPoints(rays, kEye, through, 2000, 5))
+    if (glm::length(known.scenePoint) > 1)
+      errors.push_back(measurePixels(kEye, dvec3(lookUp(*sampled, known.scenePoint).mirrorPoint),
+                                     known.mirrorPoint, world.reflectors[0]));
+  EXPECT_GT(errors.size(), 500u);
+  EXPECT_LT(summarise(errors, "through a ball of glass").median, 0.1);
+}
+
 /// Cells around the eye.
 struct Cells {
   Cells(const MirrorRays& rays, const glm::uvec3& counts, double edge, const BakeOptions& options) {
