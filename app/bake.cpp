@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "catoptric/core/log.h"
 #include "catoptric/core/progress.h"
 #include "catoptric/reflection_morphing/baked_file.h"
 #include "commands.h"
@@ -28,7 +29,9 @@ struct Options {
   std::string source, file;
   std::optional<core::Box> box;
   std::optional<glm::uvec3> counts;
+  std::optional<double> spacing, maxErrorPx;
   int rays = 256, depth = 5, bounces = 1;
+  bool keepStatic = false;
   SceneOptions scene;
   OutputOptions output;
 };
@@ -61,18 +64,34 @@ glm::uvec3 parseCounts(const std::string& option, const std::string& text) {
   return counts;
 }
 
+/// Counts as asked for, from the spacing, or from the error.
 BakePlan makePlan(const Options& options, const scene::WorldGeometry& world) {
+  if (int(options.counts.has_value()) + int(options.spacing.has_value()) +
+          int(options.maxErrorPx.has_value()) >
+      1)
+    throw UsageError("--counts, --spacing and --max-error exclude each other");
   BakePlan plan = reflection_morphing::makeDefaultPlan(world);
-  if (options.box) {
-    const dvec3 spacing = plan.grid.spacing(), size = options.box->upper - options.box->lower;
-    plan.grid.box = *options.box;
-    plan.grid.counts = glm::uvec3(glm::clamp(glm::ceil(size / spacing), dvec3(1), dvec3(1e4))) + 1u;
-  }
+  const core::Box box = options.box.value_or(plan.grid.box);
+  const double error = options.maxErrorPx.value_or(reflection_morphing::kDefaultMaxErrorPx);
+  const double needed = reflection_morphing::findSpacing(world, box, error);
+  const bool isAsked = options.spacing || options.maxErrorPx;
+  plan.grid =
+      reflection_morphing::makeGrid(box, options.spacing.value_or(needed),
+                                    isAsked ? kMostCounts - 1 : reflection_morphing::kMostDefaultCells);
   if (options.counts) plan.grid.counts = *options.counts;
   if (plan.grid.locationCount() > kMostLocations)
-    throw UsageError("--counts: there are more than 2^32 locations");
+    throw UsageError("there would be more than 2^32 locations",
+                     "choose a smaller --box or a larger --spacing");
+  const dvec3 spacing = plan.grid.spacing();
+  if (!options.counts && !isAsked && std::max({spacing.x, spacing.y, spacing.z}) > 1.001 * needed &&
+      needed > 0)
+    core::logWarningOnce(
+        fmt::format("locations are up to {:.3g} m apart; {:.3g} m would be needed for {} px: name a smaller "
+                    "--box, or --spacing",
+                    std::max({spacing.x, spacing.y, spacing.z}), needed, error));
   plan.options.map.size = options.rays;
   plan.options.map.bounces = options.bounces;
+  plan.options.map.keepStatic = options.keepStatic;
   plan.options.octree.depth = options.depth;
   return plan;
 }
@@ -155,14 +174,25 @@ Command makeBakeCommand() {
             arguments.option("--box", "X0,Y0,Z0,X1,Y1,Z1", "Where the eye will be; default: the scene's box",
                              [options](const std::string& text) { options->box = parseBox("--box", text); });
             arguments.option(
-                "--counts", "NXxNYxNZ", "Sampling locations each way; default: from the smallest mirror",
+                "--counts", "NXxNYxNZ", "Sampling locations each way; default: from --max-error",
                 [options](const std::string& text) { options->counts = parseCounts("--counts", text); });
+            arguments.option("--spacing", "M", "Metres between sampling locations, instead of counts",
+                             [options](const std::string& text) {
+                               options->spacing = parseNumber("--spacing", text, 1e-9, 1e15);
+                             });
+            arguments.option("--max-error", "PX",
+                             "Choose the counts for an error of PX on a mirror 700 px wide; default 0.5",
+                             [options](const std::string& text) {
+                               options->maxErrorPx = parseNumber("--max-error", text, 0.001, 100);
+                             });
             arguments.option("--rays", "N", "Rays along an edge of each ray map; default 256",
                              setInteger("--rays", options->rays, 8, kMostRays));
             arguments.option("--depth", "N", "Levels of the ray octrees; default 5",
                              setInteger("--depth", options->depth, 0, kMostDepth));
             arguments.option("--bounces", "N", "Mirrors in mirrors, to this depth; default 1",
                              setInteger("--bounces", options->bounces, 1, kMostBounces));
+            arguments.flag("--keep-static", "Rays end at diffuse objects, which then must not move",
+                           options->keepStatic);
             declareScene(arguments, options->scene);
             declareOutput(arguments, options->output);
           },

@@ -41,6 +41,8 @@ Json describeReflector(const LoadedScene& loaded, const scene::Reflector& reflec
           {"area", reflector.areaWorld},
           {"material", hasMaterial ? loaded.scene.materials[std::size_t(reflector.material)].name : ""},
           {"reason", reflector.reason},
+          {"morphed", reflector.morphed ? Json(*reflector.morphed) : Json()},
+          {"morphed_reason", reflector.morphedReason},
           {"analytic", {{"supported", choice.analytic.empty()}, {"reason", choice.analytic}}},
           {"auto",
            {{"method", std::string(renderer::methodName(choice.method))},
@@ -106,6 +108,18 @@ std::string makeSummary(const LoadedScene& loaded) {
   return text;
 }
 
+/// How reflection morphing draws a curved mirror, and why.
+std::string describeMorphing(const scene::Reflector& reflector) {
+  if (reflector.isRefractor() && !reflector.morphed.value_or(false))
+    return "by solver exact, unless --morphed or extras.catoptric.morphed says otherwise";
+  if (!reflector.morphed)
+    return fmt::format(
+        "itself where it covers {} pixels or more (--mapped-below), else by an environment map",
+        renderer::FrameOptions{}.mappedBelowPixels);
+  return fmt::format("{}, by {}", *reflector.morphed ? "itself" : "by an environment map",
+                     reflector.morphedReason);
+}
+
 std::string makeReflectorTable(const LoadedScene& loaded) {
   const auto& reflectors = loaded.geometry.reflectors;
   if (reflectors.empty())
@@ -124,11 +138,14 @@ std::string makeReflectorTable(const LoadedScene& loaded) {
     reasons += fmt::format("{}: a {} by {}; {} because {}\n", withoutControlCharacters(reflector.name),
                            reflector.isRefractor() ? "refractor" : "mirror", reflector.reason,
                            methodText(choice), choice.reason);
+    if (reflector.isRefractor())
+      reasons += fmt::format("  method morphing: drawn {}\n", describeMorphing(reflector));
     if (reflector.shape == scene::ReflectorShape::Plane || reflector.isRefractor()) continue;
     reasons += choice.analytic.empty()
                    ? fmt::format("  solver analytic: the {} that its vertices leave by at most {:.2g} m\n",
                                  scene::shapeName(reflector.shape), reflector.fitError)
                    : fmt::format("  solver analytic: not possible, {}; refined is used\n", choice.analytic);
+    reasons += fmt::format("  method morphing: drawn {}\n", describeMorphing(reflector));
   }
   return "\n" + formatTable(rows, usesColour(stdout)) + "\n" + reasons;
 }

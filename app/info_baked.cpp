@@ -38,6 +38,8 @@ void describeBakedFile(const std::string& path, const std::string& jsonFile) {
                          {"rays", plan.options.map.size},
                          {"depth", plan.options.octree.depth},
                          {"bounces", plan.options.map.bounces},
+                         {"keep_static", plan.options.map.keepStatic},
+                         {"mapped_reflectors", file.header().mappedReflectors},
                          {"bytes", file.byteCount()},
                          {"largest_location_bytes", largest}};
     writeDocument(jsonFile, document);
@@ -46,11 +48,12 @@ void describeBakedFile(const std::string& path, const std::string& jsonFile) {
   printData(
       fmt::format("{}  baked for reflection morphing, format {}, mirrors {}\n"
                   "  {}x{}x{} locations from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) m\n"
-                  "  {}^2 rays a map, octree depth {}, {} bounces\n"
+                  "  {}^2 rays a map, octree depth {}, {} bounces{}; {} reflectors left to environment maps\n"
                   "  {:.1f} MB, a location at most {:.2f} MB\n",
                   path, file.header().version, fingerprint, n.x, n.y, n.z, low.x, low.y, low.z, high.x,
                   high.y, high.z, plan.options.map.size, plan.options.octree.depth, plan.options.map.bounces,
-                  double(file.byteCount()) / 1e6, double(largest) / 1e6));
+                  plan.options.map.keepStatic ? ", rays end at static objects" : "",
+                  file.header().mappedReflectors, double(file.byteCount()) / 1e6, double(largest) / 1e6));
 }
 
 }  // namespace catoptric::app

@@ -61,6 +61,7 @@ Json makeFrameJson(const renderer::FrameOptions& options, const renderer::Frame&
             {"culled_vertices", counters.culledVertices},
             {"culled_triangles", counters.culledTriangles},
             {"virtual_triangles", counters.virtualTriangles},
+            {"looked_up_vertices", counters.lookedUpVertices},
             {"fragment_tests", counters.fragmentTests},
             {"reflectors_drawn", counters.reflectorsDrawn},
             {"reflectors_culled", counters.reflectorsCulled},

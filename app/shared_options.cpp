@@ -74,6 +74,10 @@ void declareScene(Arguments& arguments, SceneOptions& options) {
                      options.reflectors.maxRoughness =
                          float(parseNumber("--reflector-roughness", text, 0, 1));
                    });
+  arguments.repeatable("--morphed", "NAME", "Reflection morphing always draws this reflector itself",
+                       [&](const std::string& text) { options.reflectors.morphed.push_back(text); });
+  arguments.repeatable("--mapped", "NAME", "... draws it by an environment map and does not bake it",
+                       [&](const std::string& text) { options.reflectors.mapped.push_back(text); });
   arguments.flag("--no-reflectors", "Nothing is a mirror", options.noReflectors);
   arguments.option(
       "--max-memory", "BYTES", "Refuse scenes that need more, as in 512M; default 4G",
@@ -135,6 +139,9 @@ void declareBaked(Arguments& arguments, renderer::FrameOptions& options) {
   arguments.option("--baked", "FILE",
                    "Of the morphing method: file of 'catoptric bake'; default: bake at the eye",
                    setText(options.bakedFile));
+  arguments.option("--mapped-below", "PIXELS",
+                   "Of the morphing method: mirrors that cover fewer get environment maps; default 1024",
+                   setInteger("--mapped-below", options.mappedBelowPixels, 0, 1 << 30));
 }
 
 void declareMethod(Arguments& arguments, renderer::FrameOptions& options, bool& plainMap) {

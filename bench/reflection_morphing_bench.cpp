@@ -54,13 +54,13 @@ void loadOne(benchmark::State& state) {
 void lookUp(benchmark::State& state) {
   Bench& b = get();
   CornerPoints corners;
-  for (auto _ : state) lookUpCorners(b.trace, b.points, corners);
+  for (auto _ : state) lookUpCorners(b.trace, b.points, {}, corners);
   state.SetItemsProcessed(std::int64_t(state.iterations()) * std::int64_t(b.points.size()));
 }
 void morph(benchmark::State& state) {
   Bench& b = get();
   CornerPoints corners;
-  lookUpCorners(b.trace, b.points, corners);
+  lookUpCorners(b.trace, b.points, {}, corners);
   std::vector<vec3> drawn(b.points.size()), mirror(b.points.size());
   std::array<float, 8> weights{};
   weights.fill(0.125f);

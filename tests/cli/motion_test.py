@@ -48,6 +48,18 @@ class Motion(support.CommandTest):
             self.assertGreater(int(row[32 * channels]) - int(row[32 * channels + 1]), 60, method)
             self.assertLess(int(row[48 * channels]) - int(row[48 * channels + 1]), 20, method)
 
+    def test_morphing_keeps_what_stands_still(self):
+        words = ("--method", "morphing", "--mapped-below", "0", "--bounces", "1", "--size", "96x72", "--json", "a.json")
+        self.succeed("render", "facing-mirrors", "-o", "out_#.png", "--frames", "3", "--fps", "2", *words)
+        frames = json.loads(self.read("a.json"))["frames"]
+        self.succeed("render", "facing-mirrors", "-o", "one.png", "--time", "1", *words)
+        self.assertEqual(self.read("out_2.png"), self.read("one.png"))
+        self.assertNotEqual(self.read("out_0.png"), self.read("one.png"))
+        looked_up = [frame["counters"]["looked_up_vertices"] for frame in frames]
+        # What moves is known from the second frame on.
+        self.assertLess(looked_up[2], looked_up[0] / 5)
+        self.assertGreater(looked_up[2], 0)
+
     def test_a_sequence_shows_what_single_pictures_show(self):
         for method in (("--method", "auto"), ("--solver", "exact"), ("--method", "zexel"), ("--method", "environment"),
                        ("--method", "raytrace")):

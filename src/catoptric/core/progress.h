@@ -29,10 +29,14 @@ class Progress {
   void describe(const std::string& what);
   /// One step (or `count` of them) is done.
   void advance(std::size_t count = 1);
+  /// The steps that are left take about equally long: the time left is shown, as soon as there is something
+  /// to judge it by. What is done by now was done earlier and tells nothing.
+  void expectEvenSteps();
 
  private:
   void show(bool lineIsDue);
   [[nodiscard]] std::string makeBar() const;
+  [[nodiscard]] std::string describeTimeLeft(std::chrono::steady_clock::time_point now) const;
 
   std::mutex mutex_;
   std::string task_, what_;
@@ -40,6 +44,9 @@ class Progress {
   std::FILE* stream_;
   ProgressStyle style_;
   std::chrono::steady_clock::time_point lastShown_{};
+  bool isEven_ = false;
+  std::size_t doneEarlier_ = 0;
+  std::chrono::steady_clock::time_point evenSince_{};
 };
 
 }  // namespace catoptric::core

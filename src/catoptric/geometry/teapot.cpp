@@ -45,6 +45,13 @@ std::vector<BicubicPatch> makePatches() {
   return patches;
 }
 
+/// In Newell's order: rim and body, handle, spout, lid; then the bottom.
+TeapotPart partOf(std::size_t patch) {
+  if (patch < 12 || patch >= kNewellPatches) return TeapotPart::Body;
+  if (patch < 16) return TeapotPart::Handle;
+  return patch < 20 ? TeapotPart::Spout : TeapotPart::Lid;
+}
+
 }  // namespace
 
 std::span<const BicubicPatch> teapotPatches() {
@@ -56,8 +63,10 @@ Mesh makeTeapot(const TeapotOptions& options) {
   Mesh all;
   const std::span<const BicubicPatch> patches = teapotPatches();
   const std::size_t count = options.withBottom ? patches.size() : kNewellPatches;
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < count; ++i) {
+    if (options.part != TeapotPart::All && options.part != partOf(i)) continue;
     append(all, tessellatePatch(patches[i], options.cellsPerPatch, options.cellsPerPatch));
+  }
   constexpr double kTopOfKnob = 3.15;  // Newell's units
   const dmat4 yUpFromZUp = turnAround({1, 0, 0}, -0.5 * glm::pi<double>());
   const Mesh upright = transformed(all, scaleBy(dvec3(1.0 / kTopOfKnob)) * yUpFromZUp);

@@ -8,9 +8,12 @@
 
 namespace catoptric::geometry {
 
+enum class TeapotPart { All, Body, Handle, Spout, Lid };
+
 struct TeapotOptions {
-  int cellsPerPatch = 8;   ///< quads along each edge of a patch
-  bool withBottom = true;  ///< the four patches that were added to Newell's 28
+  int cellsPerPatch = 8;              ///< quads along each edge of a patch
+  bool withBottom = true;             ///< the four patches that were added to Newell's 28
+  TeapotPart part = TeapotPart::All;  ///< the bottom belongs to the body
 };
 
 /// The patches in Newell's units, z up, every one with its front (dS/du x dS/dv) outwards. The first 28 are

@@ -313,7 +313,9 @@ double findTessellationSize(const scene::Reflector& reflector, const dvec3& eye,
 TessellatedObjects tessellateForReflector(const scene::WorldGeometry& geometry, std::uint32_t reflector,
                                           const TessellationOptions& options) {
   const std::uint32_t own = geometry.reflectors[reflector].part;
-  const ReflectorDistance distance(geometry, geometry.parts[own], geometry.reflectors[reflector].doubleSided);
+  const ReflectorDistance distance(
+      geometry, geometry.parts[own],
+      geometry.reflectors[reflector].doubleSided || geometry.reflectors[reflector].isRefractor());
   const double pixelsPerUnit =
       options.reflectorDiameterPx / (2.0 * std::max(geometry.reflectors[reflector].radius, 1e-30));
   const double leastPx = distance.turnsRound() ? kLeastTurnedPx : 1.0;
@@ -323,9 +325,12 @@ TessellatedObjects tessellateForReflector(const scene::WorldGeometry& geometry, 
   const double asked = k;
 
   const scene::Reflector* mirror = options.isSeenDirectly ? &geometry.reflectors[reflector] : nullptr;
+  const auto isCut = [&](std::size_t p) {
+    return p != own && (options.parts.empty() || options.parts[p] != 0);
+  };
   std::size_t uncut = 0;
   for (std::uint32_t p = 0; p < geometry.parts.size(); ++p)
-    if (p != own) uncut += geometry.parts[p].indexCount / 3;
+    if (isCut(p)) uncut += geometry.parts[p].indexCount / 3;
   const std::size_t budget = std::max(options.maxTriangles, uncut);
 
   std::vector<PartPieces> pieces(geometry.parts.size());
@@ -333,7 +338,7 @@ TessellatedObjects tessellateForReflector(const scene::WorldGeometry& geometry, 
     std::atomic<std::size_t> made{0};
     core::parallelFor(geometry.parts.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t p = begin; p < end; ++p)
-        if (p != own)
+        if (isCut(p))
           pieces[p] = PartCutter(geometry, geometry.parts[p], distance, mirror, float(k), budget, made).cut();
     });
     if (made.load() <= budget) break;

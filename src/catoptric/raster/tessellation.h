@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "catoptric/core/math.h"
@@ -45,6 +46,7 @@ struct TessellationOptions {
   /// are left out.
   bool isSeenDirectly = false;
   std::size_t maxTriangles = 600000;  ///< budget; when hit, k is raised and one warning says so
+  std::span<const std::uint8_t> parts{};  ///< by part: 0 leaves it out; empty: all parts
 };
 
 /// For TessellationOptions::reflectorDiameterPx: the diameter of the reflector's bounding sphere as this

@@ -142,9 +142,10 @@ std::vector<BakedLocation> bakeToFile(const scene::WorldGeometry& world, const B
   file.resume(packHeader({kBakedVersion, computeFingerprint(world), plan}), count,
               [&](std::span<const std::byte> record) { results.push_back(describe(record, box, 0)); });
   progress.advance(file.recordCount());
+  progress.expectEvenSteps();
 
   // 2
-  const MirrorRays rays(world);
+  const MirrorRays rays(world, plan.options.map.keepStatic);
   const auto batch = std::size_t(core::threadCount());
   std::vector<std::vector<std::byte>> records(batch);
   std::vector<BakedLocation> described(batch);

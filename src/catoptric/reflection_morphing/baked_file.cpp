@@ -107,6 +107,7 @@ std::uint64_t computeFingerprint(const scene::WorldGeometry& world) {
     for (std::uint32_t i = 0; i < part.indexCount; ++i)
       indices.push_back(world.indices[part.firstIndex + i] - part.firstVertex);
     indices.push_back(reflector.doubleSided ? 1 : 0);
+    if (reflector.isRefractor()) add(std::span(&reflector.ior, 1));
     add(indices);
     add(std::span(world.positions).subspan(part.firstVertex, part.vertexCount));
     add(std::span(world.normals).subspan(part.firstVertex, part.vertexCount));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // One file with all sampling locations of a scene. Layout, little-endian:
 //   header   "CATOBAKE", version (4), header size (4), fingerprint of the mirrors (8), grid, look-up box,
-//   rays,
-//            bounces, depth, rays in a leaf; checksum of all that (8)
+//            rays, bounces, depth, rays in a leaf, static objects kept, reflectors that are not baked (how
+//            many, checksum of which); checksum of all that (8)
 //   records  one a location, in order of index: size (8), checksum (8), bytes of bakeLocation()
 //   table    offset of each record (8), checksum of the offsets (8), "CATODONE"
 // A file without a table is a bake that was interrupted; it has the name of the file and ".part".
@@ -21,7 +21,8 @@ namespace catoptric::reflection_morphing {
 struct BakedHeader {
   std::uint32_t version = 0;
   std::uint64_t fingerprint = 0;
-  BakePlan plan;
+  BakePlan plan;                       ///< without RayMapOptions::mapped
+  std::uint32_t mappedReflectors = 0;  ///< how many there were
 };
 
 /// Of all that the maps depend on: positions, normals and triangles of the mirrors. Diffuse objects may

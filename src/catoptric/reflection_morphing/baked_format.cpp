@@ -44,6 +44,10 @@ std::vector<std::byte> packHeader(const BakedHeader& header) {
   for (const int value : {plan.options.map.size, plan.options.map.bounces, plan.options.octree.depth,
                           plan.options.octree.mostLeafRays})
     out.put(std::uint32_t(value));
+  out.put(std::uint32_t(plan.options.map.keepStatic ? 1 : 0));
+  const auto& mapped = plan.options.map.mapped;
+  out.put(std::uint32_t(mapped.size()));
+  out.put(computeChecksum(std::as_bytes(std::span(mapped))));
   const auto size = std::uint32_t(out.bytes().size() + sizeof(std::uint64_t));
   std::memcpy(out.bytes().data() + sizeAt, &size, sizeof size);
   out.put(computeChecksum(out.bytes()));
@@ -83,6 +87,8 @@ BakedHeader unpackHeader(std::span<const std::byte> bytes) {
   plan.options.map.bounces = getInteger(in, 1, 64);
   plan.options.octree.depth = getInteger(in, 0, 12);
   plan.options.octree.mostLeafRays = getInteger(in, 1, 31);
+  plan.options.map.keepStatic = getInteger(in, 0, 1) != 0;
+  header.mappedReflectors = in.get<std::uint32_t>();
   return header;
 }
 

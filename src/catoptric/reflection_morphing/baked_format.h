@@ -15,7 +15,7 @@ namespace catoptric::reflection_morphing {
 using Magic = std::array<char, 8>;
 inline constexpr Magic kMagic{'C', 'A', 'T', 'O', 'B', 'A', 'K', 'E'};
 inline constexpr Magic kEndMagic{'C', 'A', 'T', 'O', 'D', 'O', 'N', 'E'};
-inline constexpr std::uint32_t kBakedVersion = 1;
+inline constexpr std::uint32_t kBakedVersion = 2;
 inline constexpr std::size_t kRecordHeader = 16;  ///< size and checksum
 
 [[nodiscard]] std::vector<std::byte> packHeader(const BakedHeader& header);

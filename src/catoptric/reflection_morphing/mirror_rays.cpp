@@ -1,29 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "catoptric/reflection_morphing/mirror_rays.h"
 
+#include <limits>
+
+#include "catoptric/scene/shading.h"
+
 namespace catoptric::reflection_morphing {
 namespace {
 
 constexpr double kLeastSegment = 1e-7;  // of the scene's radius
 
-std::vector<geometry::HierarchyTriangle> listMirrorTriangles(const scene::WorldGeometry& world) {
+std::vector<geometry::HierarchyTriangle> listTriangles(const scene::WorldGeometry& world, bool ofReflectors) {
   std::vector<geometry::HierarchyTriangle> triangles;
   for (std::uint32_t t = 0; t < world.triangleCount(); ++t) {
     const std::uint32_t reflector = world.parts[world.triangleParts[t]].reflector;
-    if (reflector == core::kNoId) continue;
+    if ((reflector != core::kNoId) != ofReflectors) continue;
     const auto corner = [&](std::uint32_t k) { return world.positions[world.indices[3 * t + k]]; };
-    triangles.push_back({corner(0), corner(1), corner(2), t, world.triangleParts[t],
-                         world.reflectors[reflector].doubleSided ? geometry::kTwoSided : 0});
+    const bool isTwoSided =
+        !ofReflectors || world.reflectors[reflector].doubleSided || world.reflectors[reflector].isRefractor();
+    triangles.push_back(
+        {corner(0), corner(1), corner(2), t, world.triangleParts[t], isTwoSided ? geometry::kTwoSided : 0});
   }
   return triangles;
 }
 
 }  // namespace
 
-MirrorRays::MirrorRays(const scene::WorldGeometry& world)
-    : world_(world), least_(kLeastSegment * world.bounds.radius()), hierarchy_(listMirrorTriangles(world)) {}
+MirrorRays::MirrorRays(const scene::WorldGeometry& world, bool withObstacles)
+    : world_(world),
+      least_(kLeastSegment * world.bounds.radius()),
+      hierarchy_(listTriangles(world, true)),
+      obstacles_(withObstacles ? listTriangles(world, false) : std::vector<geometry::HierarchyTriangle>()) {}
 
-bool MirrorRays::reflect(ReflectedRay& ray, std::uint32_t& triangle) const {
+double MirrorRays::findObstacle(const ReflectedRay& ray) const {
+  const auto hit = geometry::findNearestHit(obstacles_, ray.origin, ray.direction, least_, core::kNoId);
+  return hit ? hit->distance : std::numeric_limits<double>::infinity();
+}
+
+bool MirrorRays::passOn(ReflectedRay& ray, std::uint32_t& triangle) const {
   const auto hit = geometry::findNearestHit(hierarchy_, ray.origin, ray.direction, least_, triangle);
   if (!hit) return false;
   triangle = hit->triangle;
@@ -33,10 +47,23 @@ bool MirrorRays::reflect(ReflectedRay& ray, std::uint32_t& triangle) const {
   const double length = glm::length(normal);
   if (!(length > 0)) return false;
   normal /= length;
+  const std::uint32_t index = world_.parts[world_.triangleParts[triangle]].reflector;
+  const scene::Reflector& reflector = world_.reflectors[index];
   ray.origin += hit->distance * ray.direction;
   (ray.trace.empty() ? ray.distance : ray.between) += hit->distance;
-  ray.direction = glm::normalize(core::reflectDirection(ray.direction, normal));
-  ray.trace.push_back(world_.parts[world_.triangleParts[triangle]].reflector);
+  ray.trace.push_back(index);
+  if (!reflector.isRefractor()) {
+    ray.direction = glm::normalize(core::reflectDirection(ray.direction, normal));
+    ++ray.mirrors;
+    return true;
+  }
+  const double eta = double(scene::glsl::relativeIndex(reflector.ior, hit->isFront));
+  const dvec3 refracted = glm::refract(ray.direction, hit->isFront ? normal : -normal, eta);
+  ++ray.crossings;
+  ray.isTotal = refracted == dvec3(0);
+  if (ray.isTotal) return true;
+  ray.direction = glm::normalize(refracted);
+  ray.medium = hit->isFront ? index : core::kNoId;
   return true;
 }
 

@@ -28,65 +28,6 @@ namespace catoptric::reflection_morphing {
 
 using raster::VertexKind;
 
-namespace {
-
-constexpr std::size_t kSideBySide = 64;  // searches; their texels fit the nearest cache
-
-/// Step 1 for up to kSideBySide vertices at one location.
-void lookUp(const SampledTrace& trace, std::span<const vec3> points,
-            std::array<FoundRay, kSideBySide>& found) {
-  const RayMap& map = trace.map;
-  std::array<std::span<const std::uint32_t>, kSideBySide> leaves;
-  std::array<RaySearch, kSideBySide> searches;
-  std::array<std::uint8_t, kSideBySide> active;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    leaves[i] = trace.octree.findLeaf(points[i]);
-    __builtin_prefetch(leaves[i].data());
-  }
-  for (std::size_t i = 0; i < points.size(); ++i)
-    for (const std::uint32_t ray : leaves[i]) __builtin_prefetch(&map.texels[ray]);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    searches[i].start(map, points[i], findNearestRay(map, leaves[i], points[i]));
-    active[i] = std::uint8_t(i);
-  }
-  for (std::size_t count = points.size(); count > 0;) {
-    std::size_t left = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      RaySearch& search = searches[active[k]];
-      if (search.advance(map))
-        found[active[k]] = search.found();
-      else
-        active[left++] = active[k];
-    }
-    count = left;
-  }
-}
-
-}  // namespace
-
-void lookUpCorners(const CellTrace& trace, std::span<const vec3> scenePoints, CornerPoints& corners) {
-  corners.points.resize(scenePoints.size());
-  corners.kinds.assign(scenePoints.size(), VertexKind::None);
-  core::parallelFor(scenePoints.size(), 512, [&](std::size_t begin, std::size_t end) {
-    std::array<FoundRay, kSideBySide> found;
-    for (std::size_t k = 0; k < 8; ++k)  // a location at a time: its map stays in the cache
-      for (std::size_t first = begin; first < end; first += kSideBySide) {
-        const std::size_t count = std::min(kSideBySide, end - first);
-        if (trace[k] != nullptr) lookUp(*trace[k], scenePoints.subspan(first, count), found);
-        for (std::size_t i = 0; i < count; ++i) {
-          std::array<vec4, 8>& points = corners.points[first + i];
-          points[k] = trace[k] ? vec4(found[i].mirrorPoint, found[i].rest) : vec4(0);
-          if (trace[k] == nullptr) continue;
-          VertexKind& kind = corners.kinds[first + i];
-          if (found[i].isInside)
-            kind = VertexKind::Reflected;
-          else if (kind == VertexKind::None)
-            kind = VertexKind::DoublyVirtual;
-        }
-      }
-  });
-}
-
 std::array<float, 8> weighTrace(const CellTrace& trace, const std::array<float, 8>& weights) {
   constexpr float kLeast = 0.25f;
   std::array<float, 8> result{};

@@ -19,11 +19,16 @@ using CellTrace = std::array<const SampledTrace*, 8>;
 struct CornerPoints {
   std::vector<std::array<vec4, 8>> points;
   std::vector<raster::VertexKind> kinds;
+  // Memory of the look-up.
+  std::vector<std::uint8_t> isLookedUp;
+  std::vector<std::uint32_t> rim;
 };
 
-/// Eight octree look-ups a vertex. Reflected: seen from at least one location. None: seen from nowhere
-/// because no location has the trace.
-void lookUpCorners(const CellTrace& trace, std::span<const vec3> scenePoints, CornerPoints& corners);
+/// Eight look-ups a vertex. Reflected: seen from at least one location. DoublyVirtual: not, but a triangle
+/// (three `indices` each) has a corner there and another one that is reflected. None: all others, and all if
+/// no location has the trace; their points mean nothing.
+void lookUpCorners(const CellTrace& trace, std::span<const vec3> scenePoints,
+                   std::span<const std::uint32_t> indices, CornerPoints& corners);
 
 /// Weights of the locations that have the trace, made to add up to 1 again; all 0 if less than a quarter of
 /// the weight has it.

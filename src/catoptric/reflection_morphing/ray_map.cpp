@@ -9,9 +9,9 @@
 //
 // Departures from 2004: a stereographic window for each trace instead of six faces of a cube for all, so that
 // no ray is spent on directions without mirrors and no seam has to be crossed by interpolation; each window
-// is a layer of its own. Hybrid reflectors (section 7) are chosen by size: a trace
-// that fewer than 8 of 4,096 coarse rays meet is left out, and the next method in the table draws its mirror.
-// Cost: about 1 us a ray and mirror. Source: Martin & Popescu 2004, section 4.1.
+// is a layer of its own. Traces of reflectors that the user has environment-mapped (hybrid reflectors,
+// section 7) and traces that fewer than 8 of 4,096 coarse rays meet are left out. Cost: about 1 us a ray and
+// mirror. Source: Martin & Popescu 2004, section 4.1.
 #include "catoptric/reflection_morphing/ray_map.h"
 
 #include <algorithm>
@@ -22,12 +22,14 @@ namespace catoptric::reflection_morphing {
 namespace {
 
 constexpr int kCoarseSize = 64;           // rays along an edge of step 1
+constexpr std::size_t kMostLinks = 64;    // of a trace
+constexpr int kMostTotalShare = 50;       // 1 / the share of a trace's rays that may be reflected totally
 constexpr int kLeastRays = 8;             // of them for a trace; smaller ones are left to environment maps
 constexpr double kWidestHalfAngle = 2.6;  // radians; from inside a mirror's bounding sphere
 
 struct Window {
   vec2 lower{1e30f}, upper{-1e30f};
-  int rays = 0;
+  int rays = 0, totalRays = 0;
 };
 
 struct FirstMirror {
@@ -46,24 +48,30 @@ FirstMirror aimAt(const scene::Reflector& mirror, const dvec3& location) {
   return first;
 }
 
-bool hasCurvedMirror(const Trace& trace, const scene::WorldGeometry& world) {
-  return std::any_of(trace.begin(), trace.end(), [&](std::uint32_t reflector) {
-    return world.reflectors[reflector].shape != scene::ReflectorShape::Plane;
-  });
+/// Is there anything to morph?
+bool isWanted(const Trace& trace, const scene::WorldGeometry& world, const RayMapOptions& options) {
+  for (const std::uint32_t mapped : options.mapped)
+    if (std::find(trace.begin(), trace.end(), mapped) != trace.end()) return false;
+  return std::any_of(trace.begin(), trace.end(),
+                     [&](std::uint32_t reflector) { return !world.reflectors[reflector].isPlanarMirror(); });
 }
 
 /// Step 1 for one mirror.
 std::map<Trace, Window> findWindows(const MirrorRays& rays, const dvec3& location, std::uint32_t reflector,
-                                    const FirstMirror& first, int bounces) {
+                                    const FirstMirror& first, const RayMapOptions& options) {
   std::map<Trace, Window> windows;
   const float step = 2.0f * first.extent / float(kCoarseSize);
   for (int y = 0; y < kCoarseSize; ++y)
     for (int x = 0; x < kCoarseSize; ++x) {
       const vec2 p = (vec2(x, y) + 0.5f) * step - first.extent;
-      rays.follow(location, glm::normalize(dvec3(first.chart.directionAt(p))), bounces,
+      rays.follow(location, glm::normalize(dvec3(first.chart.directionAt(p))), options.bounces, kMostLinks,
                   [&](const ReflectedRay& ray) {
-                    if (ray.trace.front() != reflector || !hasCurvedMirror(ray.trace, rays.world())) return;
+                    if (ray.trace.front() != reflector || !isWanted(ray.trace, rays.world(), options)) return;
                     Window& window = windows[ray.trace];
+                    if (ray.isTotal) {
+                      ++window.totalRays;
+                      return;
+                    }
                     ++window.rays;
                     window.lower = glm::min(window.lower, p - step);
                     window.upper = glm::max(window.upper, p + step);
@@ -74,7 +82,8 @@ std::map<Trace, Window> findWindows(const MirrorRays& rays, const dvec3& locatio
 
 /// Step 2.
 RayMap traceWindow(const MirrorRays& rays, const dvec3& location, const Chart& chart, const Trace& trace,
-                   const Window& window, int size) {
+                   const Window& window, const RayMapOptions& options) {
+  const int size = options.size;
   RayMap map;
   map.trace = trace;
   map.location = vec3(location);
@@ -86,15 +95,17 @@ RayMap traceWindow(const MirrorRays& rays, const dvec3& location, const Chart& c
   map.step = (window.upper - window.lower + 2.0f * margin) / float(size - 1);
   map.texels.resize(std::size_t(size) * std::size_t(size));
   map.states.assign(map.texels.size(), TexelState::Empty);
+  if (options.keepStatic) map.lengths.resize(map.texels.size());
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {
       const vec2 p = map.lower + vec2(x, y) * map.step;
-      rays.follow(location, glm::normalize(dvec3(chart.directionAt(p))), int(trace.size()),
+      rays.follow(location, glm::normalize(dvec3(chart.directionAt(p))), options.bounces, trace.size(),
                   [&](const ReflectedRay& ray) {
-                    if (ray.trace != trace) return;
+                    if (ray.trace != trace || ray.isTotal) return;
                     map.texels[map.at(x, y)] = {vec3(ray.origin), float(ray.distance), vec3(ray.direction),
                                                 float(ray.between)};
                     map.states[map.at(x, y)] = TexelState::Ray;
+                    if (!map.lengths.empty()) map.lengths[map.at(x, y)] = float(rays.findObstacle(ray));
                   });
     }
   return map;
@@ -124,15 +135,22 @@ std::size_t RayMap::countRays() const {
   return std::size_t(std::count(states.begin(), states.end(), TexelState::Ray));
 }
 
+std::vector<std::uint32_t> listMapped(const scene::WorldGeometry& world) {
+  std::vector<std::uint32_t> mapped;
+  for (std::uint32_t r = 0; r < world.reflectors.size(); ++r)
+    if (!world.reflectors[r].morphed.value_or(!world.reflectors[r].isRefractor())) mapped.push_back(r);
+  return mapped;
+}
+
 std::vector<RayMap> traceRayMaps(const MirrorRays& rays, const dvec3& location,
                                  const RayMapOptions& options) {
   std::vector<RayMap> maps;
   const auto& reflectors = rays.world().reflectors;
   for (std::uint32_t r = 0; r < reflectors.size(); ++r) {
     const FirstMirror first = aimAt(reflectors[r], location);
-    for (const auto& [trace, window] : findWindows(rays, location, r, first, options.bounces))
-      if (window.rays >= kLeastRays)
-        maps.push_back(traceWindow(rays, location, first.chart, trace, window, options.size));
+    for (const auto& [trace, window] : findWindows(rays, location, r, first, options))
+      if (window.rays >= kLeastRays && window.totalRays * kMostTotalShare <= window.rays)
+        maps.push_back(traceWindow(rays, location, first.chart, trace, window, options));
   }
   std::sort(maps.begin(), maps.end(), [](const RayMap& a, const RayMap& b) { return a.trace < b.trace; });
   return maps;
@@ -166,6 +184,9 @@ void continueRayMap(RayMap& map) {
       map.states[at] = TexelState::Continued;
     }
   }
+  map.cells.assign(map.states.size(), 0);
+  for (int y = 0; y + 1 < map.size; ++y)
+    for (int x = 0; x + 1 < map.size; ++x) map.cells[map.at(x, y)] = map.isCell(x, y) ? 1 : 0;
 }
 
 }  // namespace catoptric::reflection_morphing

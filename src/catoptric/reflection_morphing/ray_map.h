@@ -45,6 +45,8 @@ struct RayMap {
   int size = 0;            ///< texels along an edge
   std::vector<RayTexel> texels;
   std::vector<TexelState> states;
+  std::vector<float> lengths;       ///< of each ray, where static objects are kept; while it is being baked
+  std::vector<std::uint8_t> cells;  ///< 1 where isCell(); made by continueRayMap()
 
   [[nodiscard]] std::size_t at(int x, int y) const {
     return std::size_t(y) * std::size_t(size) + std::size_t(x);
@@ -55,13 +57,26 @@ struct RayMap {
     return s[0] != TexelState::Empty && s[1] != TexelState::Empty && s[size] != TexelState::Empty &&
            s[size + 1] != TexelState::Empty;
   }
+  /// Can the map be interpolated at p, in texels? Of a continued map.
+  [[nodiscard]] bool isFilled(const vec2& p) const {
+    const bool isOnMap = unsigned(p.x >= 0) & unsigned(p.y >= 0) & unsigned(p.x < float(size - 1)) &
+                         unsigned(p.y < float(size - 1));
+    return isOnMap && cells[at(int(p.x), int(p.y))] != 0;
+  }
   [[nodiscard]] std::size_t countRays() const;
 };
 
 struct RayMapOptions {
   int size = 256;  ///< rays along an edge of a map
   int bounces = 1;
+  bool keepStatic = false;  ///< rays end at diffuse objects, which then must not move
+  /// Reflectors that other methods will draw (2004, section 7): their traces are left out.
+  std::vector<std::uint32_t> mapped{};
 };
+
+/// The reflectors that the user has not morphed, and the refractors that he has not asked to be: what stands
+/// near the focus of a lens cannot be drawn by moving its vertices.
+[[nodiscard]] std::vector<std::uint32_t> listMapped(const scene::WorldGeometry& world);
 
 /// The maps of all traces with a curved mirror that are seen from `location`; sorted by trace. Only the Ray
 /// texels are filled.
@@ -72,33 +87,5 @@ struct RayMapOptions {
 /// interpolated.
 void continueRayMap(RayMap& map);
 inline constexpr int kContinuedTexels = 2;
-
-/// Where a scene point is seen.
-struct FoundRay {
-  vec3 mirrorPoint{0};    ///< the first mirror point, as seen from the location
-  float rest = 0;         ///< from there over the other mirrors to the scene point
-  bool isInside = false;  ///< false: continued past the edge of the trace, the point is not reflected
-};
-
-/// Solves origin(p) + t direction(p) = scenePoint on the interpolated map, step by step, so that many
-/// searches can be led side by side: most of the time goes by waiting for memory, and each step asks for what
-/// the next one needs.
-class RaySearch {
- public:
-  /// From the texel `seed`, which must be the lower corner of a cell.
-  void start(const RayMap& map, const vec3& scenePoint, std::uint32_t seed);
-  /// True when the search has ended.
-  [[nodiscard]] bool advance(const RayMap& map);
-  [[nodiscard]] const FoundRay& found() const { return found_; }
-
- private:
-  vec3 point_{0};
-  vec2 p_{0};
-  int steps_ = 0, shortened_ = 0;
-  FoundRay found_;
-};
-
-/// One search from its start to its end.
-[[nodiscard]] FoundRay findRay(const RayMap& map, const vec3& scenePoint, std::uint32_t seed);
 
 }  // namespace catoptric::reflection_morphing

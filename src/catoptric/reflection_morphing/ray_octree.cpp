@@ -11,7 +11,8 @@
 //
 // Departures from 2004: rays are found from the top down and not inserted one by one, with the same tree as
 // result; there is an octree for each trace; the rays are a sixteenth of the map's, since find_ray.cpp goes
-// on from the one found; rays are not cut off at the next mirror, whose own depth hides what lies behind it.
+// on from the one found; rays are not cut off at the next mirror, whose own depth hides what lies behind it,
+// only at static objects where these are kept.
 // Cost: 20 ms for 4,000 rays and depth 5. Source: Martin & Popescu 2004, section 4.2.
 #include "catoptric/reflection_morphing/ray_octree.h"
 
@@ -57,8 +58,8 @@ float squaredDistance(const RayTexel& ray, const vec3& point) {
   return glm::dot(across, across);
 }
 
-bool passesThrough(const RayTexel& ray, const vec3& lower, const vec3& upper) {
-  float least = 0, most = std::numeric_limits<float>::infinity();
+bool passesThrough(const RayTexel& ray, float length, const vec3& lower, const vec3& upper) {
+  float least = 0, most = length;
   for (int axis = 0; axis < 3; ++axis) {
     const float inverse = 1 / ray.direction[axis];
     float a = (lower[axis] - ray.origin[axis]) * inverse, b = (upper[axis] - ray.origin[axis]) * inverse;
@@ -90,13 +91,16 @@ class Builder {
       const vec3 low = lower + half * vec3(c & 1, (c >> 1) & 1, c >> 2), high = low + half;
       passing.clear();
       for (const std::uint32_t ray : rays)
-        if (passesThrough(map_.texels[ray], low, high)) passing.push_back(ray);
+        if (passesThrough(map_.texels[ray], lengthOf(ray), low, high)) passing.push_back(ray);
       if (passing.empty()) passing.push_back(findNearestRay(map_, rays, 0.5f * (low + high)));
       build(children + c, passing, low, high, depth + 1);
     }
   }
 
  private:
+  [[nodiscard]] float lengthOf(std::uint32_t ray) const {
+    return map_.lengths.empty() ? std::numeric_limits<float>::infinity() : map_.lengths[ray];
+  }
   void makeLeaf(std::uint32_t node, const std::vector<std::uint32_t>& rays) {
     const auto most = std::size_t(options_.mostLeafRays);
     const std::size_t count = std::min(rays.size(), most);

@@ -19,10 +19,9 @@ double millisecondsSince(std::chrono::steady_clock::time_point start) {
 }  // namespace
 
 ReflectionMorphingMethod::Objects::Objects(const scene::WorldGeometry& world, std::uint32_t reflector,
-                                           double maxError)
-    : maxErrorPx(maxError),
-      objects(raster::tessellateForReflector(world, reflector,
-                                             raster::TessellationOptions{.maxErrorPx = maxError})),
+                                           const raster::TessellationOptions& options)
+    : maxErrorPx(options.maxErrorPx),
+      objects(raster::tessellateForReflector(world, reflector, options)),
       pass(objects),
       virtualPositions(objects.positions.size()),
       mirrorPoints(objects.positions.size()) {}
@@ -32,6 +31,23 @@ void ReflectionMorphingMethod::setSource(std::shared_ptr<const LocationSource> s
   cell_.reset();
   locations_.clear();
   corners_.clear();
+}
+
+void ReflectionMorphingMethod::partsMoved(const scene::WorldGeometry& world,
+                                          std::span<const std::uint32_t> parts) {
+  const auto isMirror = [&](std::uint32_t part) { return world.parts[part].reflector != core::kNoId; };
+  if (std::any_of(parts.begin(), parts.end(), isMirror)) {
+    geometryChanged();
+    return;
+  }
+  isMoving_.resize(world.parts.size(), 0);
+  bool isNew = false;
+  for (const std::uint32_t part : parts) {
+    isNew = isNew || isMoving_[part] == 0;
+    isMoving_[part] = 1;
+  }
+  std::erase_if(objects_, [&](const auto& entry) { return isNew || entry.first.areMoving; });
+  std::erase_if(corners_, [&](const auto& entry) { return isNew || entry.first.second.areMoving; });
 }
 
 void ReflectionMorphingMethod::prepare(raster::FrameContext& frame) {
@@ -77,23 +93,29 @@ bool ReflectionMorphingMethod::supports(const raster::Chain& chain) const {
 }
 
 ReflectionMorphingMethod::Objects& ReflectionMorphingMethod::getObjects(const raster::FrameContext& frame,
-                                                                        std::uint32_t reflector) {
-  std::unique_ptr<Objects>& slot = objects_[reflector];
+                                                                        const ObjectsKey& key) {
+  std::unique_ptr<Objects>& slot = objects_[key];
   if (!slot || slot->maxErrorPx != frame.maxErrorPx) {
-    slot = std::make_unique<Objects>(frame.scene.geometry(), reflector, frame.maxErrorPx);
-    corners_.clear();
+    std::vector<std::uint8_t> wanted = isMoving_;
+    for (std::uint8_t& part : wanted) part = (part != 0) == key.areMoving ? 1 : 0;
+    slot = std::make_unique<Objects>(
+        frame.scene.geometry(), key.reflector,
+        raster::TessellationOptions{
+            .maxErrorPx = frame.maxErrorPx, .reflectorDiameterPx = key.sizePx, .parts = wanted});
+    std::erase_if(corners_, [&](const auto& entry) { return entry.first.second == key; });
   }
   return *slot;
 }
 
-void ReflectionMorphingMethod::morph(raster::FrameContext& frame, const raster::Chain& chain,
-                                     Objects& objects) {
+CornerPoints& ReflectionMorphingMethod::morph(raster::FrameContext& frame, const raster::Chain& chain,
+                                              const ObjectsKey& key, Objects& objects) {
   const CellTrace trace = findCellTrace(chain.mirrors);
-  CornerPoints& corners = corners_[chain.mirrors];
+  const auto [at, isNew] = corners_.try_emplace({chain.mirrors, key});
+  CornerPoints& corners = at->second;
   const std::size_t count = objects.objects.positions.size();
   auto start = std::chrono::steady_clock::now();
-  if (dynamic_ || corners.points.size() != count) {
-    lookUpCorners(trace, objects.objects.positions, corners);
+  if (dynamic_ || isNew) {
+    lookUpCorners(trace, objects.objects.positions, objects.objects.indices, corners);
     frame.counters.lookedUpVertices += count;
     frame.counters.lookUpMs += millisecondsSince(start);
   }
@@ -102,18 +124,22 @@ void ReflectionMorphingMethod::morph(raster::FrameContext& frame, const raster::
                 objects.mirrorPoints);
   frame.counters.virtualVertices += count;
   frame.counters.virtualVerticesMs += millisecondsSince(start);
+  return corners;
 }
 
 void ReflectionMorphingMethod::drawObjects(raster::FrameContext& frame, const raster::Chain& chain,
-                                           const raster::Level& parent, raster::Level& target) {
+                                           const raster::Level& parent, bool areMoving,
+                                           raster::Level& target) {
   // 1
   const auto& reflectors = frame.scene.geometry().reflectors;
-  const auto lastCurved = std::find_if(chain.mirrors.rbegin(), chain.mirrors.rend(), [&](std::uint32_t r) {
-    return reflectors[r].shape != scene::ReflectorShape::Plane;
-  });
-  Objects& objects = getObjects(frame, *lastCurved);
+  const auto lastCurved = std::find_if(chain.mirrors.rbegin(), chain.mirrors.rend(),
+                                       [&](std::uint32_t r) { return !reflectors[r].isPlanarMirror(); });
+  const ObjectsKey key{*lastCurved,
+                       raster::findTessellationSize(reflectors[*lastCurved], frame.camera.eye, frame.camera),
+                       areMoving};
+  Objects& objects = getObjects(frame, key);
   if (objects.objects.indices.empty()) return;
-  morph(frame, chain, objects);
+  const CornerPoints& corners = morph(frame, chain, key, objects);
 
   // 2
   // After several mirrors the first mirror point says nothing about orientation: points that coincide with
@@ -123,19 +149,20 @@ void ReflectionMorphingMethod::drawObjects(raster::FrameContext& frame, const ra
   raster::SurfaceView view;
   view.clipFromDraw = raster::makeClipFromWorld(frame.camera, frame.nearPlane, frame.jitterPx);
   view.eye = view.drawEye = frame.camera.eye;
-  view.windingFlipped = chain.level % 2 == 1;
+  view.windingFlipped = (chain.level - chain.crossings) % 2 == 1;
   view.chain = &chain;
   view.parent = &parent;
-  if (reflectors[chain.last].shape == scene::ReflectorShape::Plane)
+  if (reflectors[chain.last].isPlanarMirror())
     raster::clipAtLastMirror(reflectors[chain.last], chain.last,
                              reflectors[chain.mirrors[chain.mirrors.size() - 2]].centre, view);
-  objects.pass.draw(frame, view, objects.virtualPositions, corners_[chain.mirrors].kinds,
-                    objects.mirrorPoints, scenePoints, target);
+  objects.pass.draw(frame, view, objects.virtualPositions, corners.kinds, objects.mirrorPoints, scenePoints,
+                    target);
 }
 
 void ReflectionMorphingMethod::render(raster::FrameContext& frame, const raster::Chain& chain,
                                       const raster::Level& parent, raster::Level& target) {
-  drawObjects(frame, chain, parent, target);
+  drawObjects(frame, chain, parent, false, target);
+  if (!isMoving_.empty()) drawObjects(frame, chain, parent, true, target);
   // 3
   background_.draw(frame.scene, chain, parent, target);
 }

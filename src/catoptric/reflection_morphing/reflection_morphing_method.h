@@ -3,6 +3,7 @@
 // scene are morphed and rasterised into the mirror's pixels (2004, section 6).
 #pragma once
 
+#include <compare>
 #include <map>
 #include <memory>
 #include <vector>
@@ -26,7 +27,11 @@ class ReflectionMorphingMethod : public raster::ReflectionMethod {
   void geometryChanged() override {
     setSource(nullptr);
     objects_.clear();
+    isMoving_.clear();
   }
+  /// The same, if a mirror is among the parts. Else they are looked up anew from now on after each such call,
+  /// and everything else stays as it is.
+  void partsMoved(const scene::WorldGeometry& world, std::span<const std::uint32_t> parts);
   [[nodiscard]] bool hasSource() const { return source_ != nullptr; }
   /// True: every vertex counts as moving and is looked up anew in every frame.
   void setDynamic(bool dynamic) { dynamic_ = dynamic; }
@@ -36,27 +41,38 @@ class ReflectionMorphingMethod : public raster::ReflectionMethod {
               raster::Level& target) override;
 
  private:
-  /// What a curved mirror may reflect; kept from frame to frame.
+  /// What a curved mirror may reflect, and at which size of the mirror; what moves is apart from the rest.
+  struct ObjectsKey {
+    std::uint32_t reflector = 0;
+    double sizePx = 0;
+    bool areMoving = false;
+    auto operator<=>(const ObjectsKey&) const = default;
+  };
+  /// Kept from frame to frame.
   struct Objects {
-    Objects(const scene::WorldGeometry& world, std::uint32_t reflector, double maxErrorPx);
+    Objects(const scene::WorldGeometry& world, std::uint32_t reflector,
+            const raster::TessellationOptions& options);
     double maxErrorPx;
     raster::TessellatedObjects objects;
     raster::VirtualObjectPass pass;
     std::vector<vec3> virtualPositions, mirrorPoints;
   };
-  Objects& getObjects(const raster::FrameContext& frame, std::uint32_t reflector);
+  Objects& getObjects(const raster::FrameContext& frame, const ObjectsKey& key);
+  /// Those of the whole scene, or of it but what moves, or of what moves.
   void drawObjects(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
-                   raster::Level& target);
+                   bool areMoving, raster::Level& target);
   [[nodiscard]] CellTrace findCellTrace(const std::vector<std::uint32_t>& trace) const;
-  void morph(raster::FrameContext& frame, const raster::Chain& chain, Objects& objects);
+  CornerPoints& morph(raster::FrameContext& frame, const raster::Chain& chain, const ObjectsKey& key,
+                      Objects& objects);
 
   std::shared_ptr<const LocationSource> source_;
   bool dynamic_ = false;
   std::optional<SamplingCell> cell_;
   std::map<std::uint32_t, std::shared_ptr<const SamplingLocation>> locations_;  ///< of the cell
   raster::MirrorBackgroundPass background_;
-  std::map<std::uint32_t, std::unique_ptr<Objects>> objects_;  ///< by reflector
-  std::map<Trace, CornerPoints> corners_;                      ///< of the cell; static vertices
+  std::vector<std::uint8_t> isMoving_;  ///< by part; empty: nothing moves
+  std::map<ObjectsKey, std::unique_ptr<Objects>> objects_;
+  std::map<std::pair<Trace, ObjectsKey>, CornerPoints> corners_;  ///< of the cell
 };
 
 }  // namespace catoptric::reflection_morphing

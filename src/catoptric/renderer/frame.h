@@ -44,6 +44,7 @@ struct FrameOptions {
   bool boxCorrected = true;  ///< Environment: parallax-corrected by the box of the room; false: plain
   int environmentMapSize = 512;  ///< Environment: edge of a cube face, texels
   std::string bakedFile{};       ///< Morphing: of `catoptric bake`; empty: baked where the eye is
+  int mappedBelowPixels = 1024;  ///< Morphing: mirrors that cover fewer pixels get environment maps
   bool allDynamic = false;       ///< Morphing: every vertex counts as moving
   depth_reflection_map::ZexelOptions zexel{};  ///< Zexel only
   bool withSeen = true;                        ///< read back what is seen at each pixel

@@ -3,6 +3,8 @@
 // into the next level, 4 again for mirrors in mirrors, 5 blend from the last level to the first.
 #include "catoptric/renderer/raster_frame.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,6 +12,7 @@
 #include <map>
 
 #include "catoptric/core/error.h"
+#include "catoptric/core/log.h"
 #include "catoptric/core/parallel.h"
 #include "catoptric/core/sample_pattern.h"
 #include "catoptric/depth_reflection_map/reference_file.h"
@@ -123,7 +126,9 @@ void RasterFrame::updateGeometry(std::span<const std::uint32_t> movedParts) {
   hasMoved_ = true;
   primary_.geometryChanged();
   hits_.geometryChanged();
-  for (raster::ReflectionMethod* method : methods_) method->geometryChanged();
+  for (raster::ReflectionMethod* method : methods_)
+    if (method != &morphing_) method->geometryChanged();
+  morphing_.partsMoved(geometry_, movedParts);
 }
 
 void RasterFrame::prepareLevels(int count, int widthPx, int heightPx) {
@@ -181,11 +186,29 @@ std::vector<raster::Chain> RasterFrame::findChains(const raster::Level& level,
   return chains;
 }
 
+/// Hybrid reflectors (2004, section 7): large parts are morphed, small ones get environment maps, unless the
+/// user says otherwise.
+bool RasterFrame::isMapped(const raster::Chain& chain, const FrameOptions& options) const {
+  const scene::Reflector& mirror = geometry_.reflectors[chain.last];
+  const bool isSmall = chain.pixels < std::uint64_t(options.mappedBelowPixels);
+  const bool mapped = mirror.morphed ? !*mirror.morphed : isSmall;
+  if (mapped)
+    core::logInfo(fmt::format(
+        "reflector '{}': environment map, {}", mirror.name,
+        mirror.morphed ? "by " + mirror.morphedReason
+                       : fmt::format("{} pixels, fewer than {}", chain.pixels, options.mappedBelowPixels)));
+  return mapped;
+}
+
 raster::ReflectionMethod* RasterFrame::pickMethod(const raster::Chain& chain, const FrameOptions& options) {
   if (options.method == Method::Environment) return &environment_;
-  if (chain.hasRefractor()) return &exact_;
+  if (chain.hasRefractor()) {
+    if (options.method == Method::Morphing && morphing_.supports(chain)) return &morphing_;
+    return &exact_;
+  }
   if (options.method == Method::Zexel && zexel_.supports(chain)) return &zexel_;
   const bool isMorphing = options.method == Method::Morphing;
+  if (isMorphing && chain.curved && isMapped(chain, options)) return &environment_;
   const bool needsExact =
       chain.hasSecondCurved ||
       (chain.curved && Renderer::chooseMethod(geometry_.reflectors[*chain.curved]).solver == Solver::Exact);
@@ -274,21 +297,26 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   frame.counters.reflectorsCulled = geometry_.reflectors.size() - visibleReflectors;
 }
 
-void RasterFrame::prepareMorphing(const FrameOptions& options) {
+void RasterFrame::prepareMorphing(const dvec3& eye, const FrameOptions& options) {
+  using namespace reflection_morphing;
   morphing_.setDynamic(options.allDynamic);
-  const std::string name =
-      options.bakedFile.empty() ? "bounces " + std::to_string(options.bounces) : "file " + options.bakedFile;
-  if (morphing_.hasSource() && name == morphingSource_) return;
-  if (options.bakedFile.empty()) {
-    reflection_morphing::BakePlan plan = reflection_morphing::makeDefaultPlan(geometry_);
-    plan.options.map.bounces = std::max(options.bounces, 1);
-    morphing_.setSource(std::make_shared<reflection_morphing::OnTheFly>(geometry_, plan));
-  } else {
-    const auto file = std::make_shared<reflection_morphing::BakedFile>(options.bakedFile);
+  if (!options.bakedFile.empty()) {
+    if (morphing_.hasSource() && options.bakedFile == morphingFile_) return;
+    const auto file = std::make_shared<BakedFile>(options.bakedFile);
     file->checkScene(geometry_);
     morphing_.setSource(file);
+  } else {
+    BakePlan plan = makePlanAround(geometry_, eye);
+    plan.options.map.bounces = std::max(options.bounces, 1);
+    // Of a finer grid than is needed no eye within it asks for another one.
+    const bool fits = morphing_.hasSource() && morphingFile_.empty() && morphingPlan_.grid.findCell(eye) &&
+                      morphingPlan_.grid.spacing().x <= 1.001 * plan.grid.spacing().x &&
+                      morphingPlan_.options.map.bounces == plan.options.map.bounces;
+    if (fits) return;
+    morphing_.setSource(std::make_shared<OnTheFly>(geometry_, plan));
+    morphingPlan_ = plan;
   }
-  morphingSource_ = name;
+  morphingFile_ = options.bakedFile;
 }
 
 void RasterFrame::prepareZexels(const FrameOptions& options) {
@@ -328,7 +356,7 @@ Frame RasterFrame::render(const scene::CameraFrame& camera, const FrameOptions& 
   const int samples = std::max(1, options.samples);
   prepareLevels(1, options.widthPx, options.heightPx);
   virtual_.setSolver(virtualObjectSolver(options.solver));
-  if (options.method == Method::Morphing) prepareMorphing(options);
+  if (options.method == Method::Morphing) prepareMorphing(camera.eye, options);
   zexel_.setOptions(options.zexel);
   if (options.method == Method::Zexel) prepareZexels(options);
   environment_.setOptions(options.environmentMapSize, options.boxCorrected);

@@ -37,9 +37,10 @@ class RasterFrame {
   [[nodiscard]] std::vector<raster::Chain> findChains(const raster::Level& level,
                                                       const std::vector<raster::Chain>& parents, int bounces,
                                                       bool& isComplete);
+  [[nodiscard]] bool isMapped(const raster::Chain& chain, const FrameOptions& options) const;
   [[nodiscard]] raster::ReflectionMethod* pickMethod(const raster::Chain& chain, const FrameOptions& options);
   /// Opens the baked file, or makes ready to bake where the eye is.
-  void prepareMorphing(const FrameOptions& options);
+  void prepareMorphing(const dvec3& eye, const FrameOptions& options);
   /// Opens the file of reference images.
   void prepareZexels(const FrameOptions& options);
   void readSeen(const raster::Level& level, Frame& frame) const;
@@ -60,7 +61,9 @@ class RasterFrame {
   virtual_object::ExactMethod exact_;
   environment_map::EnvironmentMapMethod environment_;
   reflection_morphing::ReflectionMorphingMethod morphing_;
-  std::string morphingSource_;  ///< what morphing_ has its locations from
+  std::string
+      morphingFile_;  ///< what morphing_ has its locations from; empty: from morphingPlan_, on the fly
+  reflection_morphing::BakePlan morphingPlan_;
   depth_reflection_map::DepthReflectionMapMethod zexel_;
   std::string zexelFile_;  ///< that zexel_ was given
   bool hasMoved_ = false;

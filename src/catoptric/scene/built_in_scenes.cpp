@@ -19,7 +19,7 @@ struct Row {
 };
 
 /// Adding a scene = one file in built_in/ and one row here.
-constexpr std::array<Row, 17> kRows = {{
+constexpr std::array<Row, 19> kRows = {{
     {{"four-spheres", "four chrome spheres on a table in a furnished room (1998, figures 15 and 16)"},
      built_in::makeFourSpheres},
     {{"cylinder", "an upright chrome cylinder on a patterned floor (1998, figure 12)"},
@@ -49,6 +49,11 @@ constexpr std::array<Row, 17> kRows = {{
      built_in::makeLenses},
     {{"columns", "columns around a chrome sphere and a cube close to it (2004, figure 1)"},
      built_in::makeColumns},
+    {{"teapot", "a chrome teapot: body morphed, spout, handle and lid environment-mapped (2004, figure 8)"},
+     built_in::makeTeapotScene},
+    {{"facing-mirrors",
+      "two curved mirrors that face each other, a block moves between them (2004, section 9)"},
+     built_in::makeFacingMirrors},
     {{"furnished-room", "about 190,000 polygons and two large flat mirrors (Bastos, figure 7)"},
      built_in::makeFurnishedRoom},
 }};

@@ -94,6 +94,7 @@ Json makeHintJson(const ReflectorHint& hint) {
   if (hint.reflector) json["reflector"] = *hint.reflector;
   if (hint.shape) json["shape"] = *hint.shape;
   if (hint.reflectivity) json["reflectivity"] = makeNumber(*hint.reflectivity);
+  if (hint.morphed) json["morphed"] = *hint.morphed;
   if (hint.shell) json["shell"] = *hint.shell;
   return json;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <span>
 
@@ -35,6 +36,7 @@ class GlbBuilder {
     for (const Instance& instance : scene_.instances) addInstance(instance);
     for (const Light& light : scene_.lights) addLight(light);
     for (const Camera& camera : scene_.cameras) addCamera(camera);
+    for (const Animation& animation : scene_.motion.animations) addAnimation(animation);
     finishScene();
     return assemble();
   }
@@ -144,7 +146,25 @@ class GlbBuilder {
     if (!instance.name.empty()) node["name"] = instance.name;
     const Json hint = makeHintJson(instance.hint);
     if (!hint.is_null()) node["extras"]["catoptric"] = hint;
-    addNode(std::move(node), instance.worldFromMesh);
+    if (instance.node < 0) {
+      addNode(std::move(node), instance.worldFromMesh);
+      return;
+    }
+    assert(instance.nodeFromMesh == dmat4(1.0));
+    addMovingNode(std::move(node), instance.node);
+  }
+
+  /// In the pose of a node of the motion, which animations may move.
+  void addMovingNode(Json node, int motionNode) {
+    const MotionNode& moving = scene_.motion.nodes.at(std::size_t(motionNode));
+    assert(moving.parent < 0 && !moving.hasMatrix);
+    nodeOf_[motionNode] = document_["nodes"].size();
+    node["translation"] = makeVectorJson(vec3(moving.translation));
+    node["rotation"] = Json::array();
+    for (const double value : {moving.rotation.x, moving.rotation.y, moving.rotation.z, moving.rotation.w})
+      node["rotation"].push_back(makeNumber(float(value)));
+    node["scale"] = makeVectorJson(vec3(moving.scale));
+    document_["nodes"].push_back(node);
   }
 
   void addLight(const Light& light) {
@@ -177,35 +197,7 @@ class GlbBuilder {
     Json node = {{"name", camera.name}, {"camera", document_["cameras"].size() - 1}};
     if (camera.node < 0)
       return addNode(std::move(node), glm::inverse(glm::lookAt(camera.eye, camera.target, camera.up)));
-    const MotionNode& rest = scene_.motion.nodes.at(std::size_t(camera.node));
-    node["translation"] = makeVectorJson(vec3(rest.translation));
-    node["rotation"] = Json::array();
-    for (const double value : {rest.rotation.x, rest.rotation.y, rest.rotation.z, rest.rotation.w})
-      node["rotation"].push_back(makeNumber(float(value)));
-    addNode(std::move(node), dmat4(1.0));
-    for (const Animation& animation : scene_.motion.animations)
-      addAnimation(animation, camera.node, document_["nodes"].size() - 1);
-  }
-
-  /// The channels of one node of the motion, by the number that it has in the file.
-  void addAnimation(const Animation& animation, int motionNode, std::size_t fileNode) {
-    constexpr const char* kInterpolations[] = {"STEP", "LINEAR", "CUBICSPLINE"};  // in the order of the enums
-    constexpr const char* kPaths[] = {"translation", "rotation", "scale", "weights"};
-    Json json = {{"name", animation.name}};
-    for (const AnimationChannel& channel : animation.channels) {
-      if (channel.node != motionNode) continue;
-      assert(channel.property != AnimatedProperty::Weights);
-      const std::size_t times = addTimes(channel.timesS);
-      const std::size_t values = addAccessor(channel.values, channel.width == 4 ? "VEC4" : "VEC3", kFloat, 0);
-      document_["accessors"][values]["count"] = channel.values.size() / channel.width;
-      json["channels"].push_back(
-          {{"sampler", json.contains("samplers") ? json["samplers"].size() : 0},
-           {"target", {{"node", fileNode}, {"path", kPaths[std::size_t(channel.property)]}}}});
-      json["samplers"].push_back({{"input", times},
-                                  {"output", values},
-                                  {"interpolation", kInterpolations[std::size_t(channel.interpolation)]}});
-    }
-    if (json.contains("channels")) document_["animations"].push_back(json);
+    addMovingNode(std::move(node), camera.node);
   }
 
   std::size_t addTimes(const std::vector<float>& timesS) {
@@ -213,6 +205,28 @@ class GlbBuilder {
     document_["accessors"][accessor]["min"] = {timesS.front()};
     document_["accessors"][accessor]["max"] = {timesS.back()};
     return accessor;
+  }
+
+  void addAnimation(const Animation& animation) {
+    constexpr const char* kPaths[] = {"translation", "rotation", "scale", "weights"};
+    constexpr const char* kInterpolations[] = {"STEP", "LINEAR", "CUBICSPLINE"};
+    Json json = {{"name", animation.name}};
+    for (const AnimationChannel& channel : animation.channels) {
+      const std::size_t times = addTimes(channel.timesS);
+      const std::size_t values = addAccessor(channel.values, "SCALAR", kFloat, 0);
+      if (channel.property != AnimatedProperty::Weights) {
+        document_["accessors"][values]["type"] = channel.width == 4 ? "VEC4" : "VEC3";
+        document_["accessors"][values]["count"] = channel.values.size() / channel.width;
+      }
+      json["samplers"].push_back({{"input", times},
+                                  {"output", values},
+                                  {"interpolation", kInterpolations[std::size_t(channel.interpolation)]}});
+      json["channels"].push_back(
+          {{"sampler", json["samplers"].size() - 1},
+           {"target",
+            {{"node", nodeOf_.at(channel.node)}, {"path", kPaths[std::size_t(channel.property)]}}}});
+    }
+    document_["animations"].push_back(json);
   }
 
   void finishScene() {
@@ -255,6 +269,7 @@ class GlbBuilder {
   Json document_;
   std::vector<std::byte> binary_;
   ExtensionNames used_;
+  std::map<int, std::size_t> nodeOf_;  ///< by node of the motion
 };
 
 }  // namespace

@@ -38,6 +38,7 @@ struct ReflectorHint {
   std::optional<bool> reflector;
   std::optional<std::string> shape;   ///< "plane", "sphere", "cylinder", "cone", "mesh"
   std::optional<float> reflectivity;  ///< 0..1, multiplies the mirror lobe; the rest shows the base.
+  std::optional<bool> morphed;        ///< by reflection morphing: true always, false never (environment map)
   std::optional<bool> shell;          ///< Node: belongs to the shell of the room (metrics).
 };
 

@@ -23,7 +23,7 @@
 #include <numeric>
 #include <utility>
 
-#include "catoptric/core/error.h"
+#include "catoptric/scene/reflector_names.h"
 #include "catoptric/scene/world_primitive.h"
 
 namespace catoptric::scene {
@@ -90,58 +90,6 @@ class PartWriter {
   std::vector<std::uint32_t> localOf_;
 };
 
-std::string baseName(const Scene& scene, const WorldPrimitive& primitive) {
-  const std::string& instance = scene.instances[primitive.instance].name;
-  if (!instance.empty()) return instance;
-  if (primitive.material >= 0 && !scene.materials[std::size_t(primitive.material)].name.empty())
-    return scene.materials[std::size_t(primitive.material)].name;
-  return fmt::format("object {}", primitive.instance);
-}
-
-/// Step 3. One name for each piece, in the order of primitives; "#k" where a name occurs more than once.
-std::vector<std::string> nameReflectors(const Scene& scene, std::span<const WorldPrimitive> primitives) {
-  std::vector<std::string> names;
-  std::map<std::string, int> total, used;
-  for (const WorldPrimitive& primitive : primitives)
-    for (std::size_t i = 0; i < primitive.pieces.size(); ++i) {
-      names.push_back(baseName(scene, primitive));
-      ++total[names.back()];
-    }
-  for (std::string& name : names)
-    if (total[name] > 1) {
-      const std::string base = name;
-      do name = fmt::format("{} #{}", base, ++used[base]);
-      while (total.count(name) != 0);  // an instance may be called "mirror #2" itself
-    }
-  return names;
-}
-
-/// --reflector: which pieces are kept; a name that matches nothing is an error.
-std::vector<bool> selectReflectors(const Scene& scene, std::span<const WorldPrimitive> primitives,
-                                   std::span<const std::string> names, std::span<const std::string> only) {
-  std::vector<bool> keep(names.size(), only.empty());
-  for (const std::string& wanted : only) {
-    bool found = false;
-    for (const WorldPrimitive& primitive : primitives)
-      for (std::size_t i = 0; i < primitive.pieces.size(); ++i) {
-        const std::size_t piece = primitive.firstReflector + i;
-        const bool matches =
-            names[piece] == wanted || scene.instances[primitive.instance].name == wanted ||
-            (primitive.material >= 0 && scene.materials[std::size_t(primitive.material)].name == wanted);
-        if (matches) keep[piece] = found = true;
-      }
-    if (!found) {
-      const std::size_t shown = std::min<std::size_t>(names.size(), 8);
-      throw core::Error("reflector.unknown", "no reflector is called \"" + wanted + "\"", {},
-                        names.empty() ? "the scene has no reflectors"
-                                      : fmt::format("the scene has: {}{}",
-                                                    fmt::join(names.begin(), names.begin() + shown, ", "),
-                                                    shown < names.size() ? ", ..." : ""));
-    }
-  }
-  return keep;
-}
-
 /// All triangles of a primitive: a solid is one refractor, whatever edges it has.
 MirrorPiece wholePiece(std::size_t triangles) {
   MirrorPiece piece;
@@ -197,6 +145,16 @@ void measurePart(const Scene& scene, const WorldGeometry& world, const Part& par
                    material.normalTexture.texture >= 0, options);
 }
 
+/// extras.catoptric.morphed of the node, else of the material.
+void readMorphedHint(const Scene& scene, Reflector& reflector) {
+  const std::optional<bool> byNode = scene.instances[reflector.object].hint.morphed;
+  const std::optional<bool> byMaterial =
+      reflector.material < 0 ? std::nullopt : scene.materials[std::size_t(reflector.material)].hint.morphed;
+  reflector.morphed = byNode ? byNode : byMaterial;
+  if (!reflector.morphed) return;
+  reflector.morphedReason = byNode ? "extras.catoptric of the node" : "extras.catoptric of the material";
+}
+
 Reflector makeReflector(const Scene& scene, const WorldGeometry& world, const Part& part,
                         const ReflectorDecision& decision, const std::string& name,
                         const ReflectorOptions& options) {
@@ -215,6 +173,7 @@ Reflector makeReflector(const Scene& scene, const WorldGeometry& world, const Pa
           -glm::log(glm::max(material.attenuationColor, vec3(1e-6f))) / material.attenuationDistance;
   }
   reflector.doubleSided = part.material >= 0 && scene.materials[std::size_t(part.material)].doubleSided;
+  readMorphedHint(scene, reflector);
   measurePart(scene, world, part, options, reflector);
   return reflector;
 }
@@ -281,6 +240,7 @@ WorldGeometry makeWorldGeometry(const Scene& scene, const ReflectorOptions& opti
   for (Part& part : world.parts)
     part.isSeenFromBehind =
         part.material >= 0 && scene.materials[std::size_t(part.material)].isSeenFromBehind();
+  chooseMorphed(scene, primitives, names, keep, options, world.reflectors);
   markShell(scene, world);
   return world;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,6 +33,9 @@ struct Reflector {
   float clearcoat = 0;     ///< Surface::clearcoat; 0 unless it mirrors by clearcoat
   float ior = 0;           ///< index of refraction of the solid behind a refractor's front; 0 for a mirror
   vec3 absorption{0};      ///< of a refractor: light falls by exp(-absorption * way inside), per world unit
+  std::optional<bool>
+      morphed;                ///< the user's choice for reflection morphing: always, never (environment map)
+  std::string morphedReason;  ///< whose choice: "--mapped", "extras.catoptric of the node", ...
   std::uint32_t object = core::kNoId;  ///< index of the instance
   int material = -1;
   std::uint32_t part = 0;  ///< index into WorldGeometry::parts: its triangles
@@ -86,13 +90,14 @@ struct ReflectorOptions {
       1e-4;  ///< flat if no vertex leaves the plane by more than this times the radius and ...
   double normalTolerance = 2e-3;  ///< ... no vertex normal by more than this angle, radians
   std::vector<std::string>
-      only;  ///< if not empty: names (of reflectors, instances or materials) to keep (--reflector)
+      only{};  ///< if not empty: names (of reflectors, instances or materials) to keep (--reflector)
+  std::vector<std::string> morphed{}, mapped{};  ///< names for Reflector::morphed (--morphed, --mapped)
 };
 
 /// Flattens instances into world space, splits off the reflectors and recognises their shape. Triangles of
 /// zero area, with a non-finite vertex or a coordinate beyond 1e15 are dropped and counted. Part::material is
 /// never -1 unless the scene has no materials. Deterministic. Throws core::Error("reflector.unknown") when a
-/// name in `options.only` matches nothing.
+/// name in `options` matches nothing.
 [[nodiscard]] WorldGeometry makeWorldGeometry(const Scene& scene, const ReflectorOptions& options = {});
 
 /// Recognises a reflector's shape anew and measures it, after its vertices have moved.

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cstdlib>
 #include <string>
+#include <thread>
 
 namespace catoptric::core {
 namespace {
@@ -41,6 +44,29 @@ TEST(Progress, BarRunsFullAndIsErasedAtTheEnd) {
   EXPECT_NE(text.find("[########################] 2/2"), std::string::npos) << text;
   EXPECT_EQ(text.find('\n'), std::string::npos);
   EXPECT_EQ(text.substr(text.size() - 4), "\r\033[K");
+}
+
+TEST(Progress, TimeLeftGoesByWhatWasDoneSinceAndNotBefore) {
+  setProgressStyle(ProgressStyle::Bar);
+  std::FILE* stream = std::tmpfile();
+  {
+    Progress progress("baking", 100, stream);
+    progress.advance(90);  // of an earlier run
+    progress.expectEvenSteps();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+    progress.advance();
+    progress.describe("");
+  }
+  setProgressStyle(ProgressStyle::Automatic);
+  std::rewind(stream);
+  std::string text(4096, '\0');
+  text.resize(std::fread(text.data(), 1, text.size(), stream));
+  std::fclose(stream);
+  const std::size_t at = text.find("91/100 ");
+  ASSERT_NE(at, std::string::npos) << text;
+  const int seconds = std::atoi(text.c_str() + at + 7);  // nine more of 1.1 s, or longer on a busy machine
+  EXPECT_GE(seconds, 9) << text;
+  EXPECT_NE(text.find(" s left", at), std::string::npos) << text;
 }
 
 TEST(Progress, SilentSaysNothing) {

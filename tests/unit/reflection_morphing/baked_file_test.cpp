@@ -12,6 +12,7 @@
 
 #include "catoptric/core/error.h"
 #include "catoptric/core/file.h"
+#include "catoptric/reflection_morphing/find_ray.h"
 #include "mirror_world.h"
 
 namespace catoptric::reflection_morphing {
@@ -120,7 +121,7 @@ TEST_F(BakedFileTest, isRefusedWithItsReason) {
   EXPECT_EQ(readAll(path_.string() + ".missing"), "file.read");
   EXPECT_EQ(readChanged(bytes, [](Bytes& b) { b[0] = std::byte('X'); }), "bake.foreign");
   EXPECT_EQ(readChanged(bytes, [](Bytes& b) { b.resize(3); }), "bake.foreign");
-  EXPECT_EQ(readChanged(bytes, [](Bytes& b) { b[8] = std::byte(2); }), "bake.version");
+  EXPECT_EQ(readChanged(bytes, [](Bytes& b) { b[8] = std::byte(3); }), "bake.version");
   EXPECT_EQ(readChanged(bytes, [](Bytes& b) { b.resize(40); }), "bake.truncated");
   EXPECT_EQ(readChanged(bytes, [](Bytes& b) { b.resize(b.size() - 1); }), "bake.truncated");
   EXPECT_EQ(readChanged(bytes, [](Bytes& b) { b[50] ^= std::byte(4); }), "bake.damaged");

@@ -87,7 +87,7 @@ inline std::vector<KnownPoint> makeKnownPoints(const MirrorRays& rays, const dve
     const dvec3 offset(uniform(random), uniform(random), uniform(random));
     const dvec3 d = glm::normalize(first.centre + first.radius * offset - eye);
     const double t = 0.02 * std::pow(125.0, 0.5 + 0.5 * uniform(random));
-    rays.follow(eye, d, int(trace.size()), [&](const ReflectedRay& ray) {
+    rays.follow(eye, d, int(trace.size()), trace.size(), [&](const ReflectedRay& ray) {
       if (ray.trace == trace)
         points.push_back(
             {eye + ray.distance * d, ray.origin + t * ray.direction, ray.distance + ray.between + t});

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "catoptric/core/parallel.h"
+#include "catoptric/reflection_morphing/find_ray.h"
 #include "mirror_world.h"
 
 namespace catoptric::reflection_morphing {
@@ -140,6 +142,41 @@ TEST(FindRay, overTwoMirrors) {
   }
 }
 
+/// What is seen in a ball of glass of 0.4 m, as far as it lies behind the focus.
+TEST(FindRay, throughABallOfGlass) {
+  scene::WorldGeometry world = makeMirrorWorld({makeSphereAt(dvec3(0), 0.4)});
+  world.reflectors[0].ior = 1.5f;
+  EXPECT_EQ(listMapped(world), std::vector<std::uint32_t>{0});  // unless it is asked for
+  world.reflectors[0].morphed = true;
+  EXPECT_TRUE(listMapped(world).empty());
+  const MirrorRays rays(world);
+  // Snell's law once: along the axis nothing bends, and the paraxial focus lies at n R / (2 (n - 1)).
+  const Trace through{0, 0};
+  for (const double offset : {0.0, 0.01}) {
+    std::size_t seen = 0;
+    rays.follow({offset, 0, 2}, {0, 0, -1}, 1, 64, [&](const ReflectedRay& ray) {
+      ++seen;
+      EXPECT_EQ(ray.trace, through);
+      EXPECT_NEAR(ray.between, 0.8, 1e-3);
+      if (offset > 0) {
+        EXPECT_NEAR(ray.origin.z + ray.direction.z * ray.origin.x / -ray.direction.x, -0.6, 0.01);
+      }
+    });
+    EXPECT_EQ(seen, 1u);
+  }
+  const auto location = makeLocation(rays, kEye, makeOptions(world));
+  ASSERT_EQ(location->traces.size(), 1u);
+  const SampledTrace* sampled = location->findTrace(through);
+  ASSERT_NE(sampled, nullptr);
+  std::vector<double> errors;
+  for (const KnownPoint& known : makeKnownPoints(rays, kEye, through, 2000, 5))
+    if (glm::length(known.scenePoint) > 1)
+      errors.push_back(measurePixels(kEye, dvec3(lookUp(*sampled, known.scenePoint).mirrorPoint),
+                                     known.mirrorPoint, world.reflectors[0]));
+  EXPECT_GT(errors.size(), 500u);
+  EXPECT_LT(summarise(errors, "through a ball of glass").median, 0.1);
+}
+
 /// Cells around the eye.
 struct Cells {
   Cells(const MirrorRays& rays, const glm::uvec3& counts, double edge, const BakeOptions& options) {
@@ -148,16 +185,20 @@ struct Cells {
     for (std::uint32_t i = 0; i < grid.locationCount(); ++i)
       locations.push_back(makeLocation(rays, grid.location(i), options));
   }
+  struct Morphed {
+    std::vector<vec3> drawn;
+    std::vector<raster::VertexKind> kinds;
+  };
   /// Virtual vertices for an eye with the weights of `cell`.
-  [[nodiscard]] std::vector<vec3> morph(const SamplingCell& cell, const dvec3& eye,
-                                        const std::vector<vec3>& points) const {
+  [[nodiscard]] Morphed morph(const SamplingCell& cell, const dvec3& eye,
+                              const std::vector<vec3>& points) const {
     CellTrace trace{};
     for (std::size_t k = 0; k < 8; ++k) trace[k] = locations[cell.locations[k]]->findTrace({0});
     CornerPoints corners;
-    lookUpCorners(trace, points, corners);
+    lookUpCorners(trace, points, {}, corners);
     std::vector<vec3> drawn(points.size()), mirror(points.size());
     morphVertices(vec3(eye), weighTrace(trace, cell.weights), corners, drawn, mirror);
-    return drawn;
+    return {drawn, corners.kinds};
   }
   SamplingGrid grid;
   std::vector<std::shared_ptr<const SamplingLocation>> locations;
@@ -173,7 +214,7 @@ TEST(Morphing, insideACellAndContinuousAcrossItsSides) {
   for (const KnownPoint& k : known) points.emplace_back(k.scenePoint);
   const auto cell = cells.grid.findCell(kEye);
   ASSERT_TRUE(cell);
-  const auto drawn = cells.morph(*cell, kEye, points);
+  const auto drawn = cells.morph(*cell, kEye, points).drawn;
   std::vector<double> errors;
   for (std::size_t i = 0; i < known.size(); ++i)
     errors.push_back(measurePixels(kEye, dvec3(drawn[i]), known[i].mirrorPoint, world.reflectors[0]));
@@ -187,7 +228,50 @@ TEST(Morphing, insideACellAndContinuousAcrossItsSides) {
                      right = *cells.grid.findCell(onSide + dvec3(1e-9, 0, 0));
   EXPECT_NE(left.locations, right.locations);
   const auto a = cells.morph(left, onSide, points), b = cells.morph(right, onSide, points);
-  for (std::size_t i = 0; i < points.size(); ++i) EXPECT_LT(glm::length(a[i] - b[i]), 1e-4f);
+  std::size_t compared = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (a.kinds[i] != raster::VertexKind::Reflected || b.kinds[i] != raster::VertexKind::Reflected) continue;
+    ++compared;
+    EXPECT_LT(glm::length(a.drawn[i] - b.drawn[i]), 1e-4f);
+  }
+  EXPECT_GT(compared, points.size() * 99 / 100);
+}
+
+TEST(Morphing, onlyCornersOfReflectedTrianglesArePlaced) {
+  const scene::WorldGeometry world = makeSphereWorld();
+  const MirrorRays rays(world);
+  const Cells cells(rays, {2, 2, 2}, 0.15, makeOptions(world, 128));
+  CellTrace trace{};
+  for (std::size_t k = 0; k < 8; ++k) trace[k] = cells.locations[k]->findTrace({0});
+  // In front of the mirror, beside its shadow, and two in the shadow.
+  const dvec3 behind = -glm::normalize(kEye);
+  const std::vector<vec3> points{vec3(0.6f, 0.5f, 0.8f), vec3(-0.9f, 0.6f, 0.2f), vec3(1.5 * behind),
+                                 vec3(1.7 * behind)};
+  using enum raster::VertexKind;
+  CornerPoints corners;
+  lookUpCorners(trace, points, {}, corners);
+  EXPECT_EQ(corners.kinds, (std::vector{Reflected, Reflected, None, None}));
+  const std::vector<std::uint32_t> indices{0, 1, 2, 2, 3, 2};
+  lookUpCorners(trace, points, indices, corners);
+  EXPECT_EQ(corners.kinds, (std::vector{Reflected, Reflected, DoublyVirtual, None}));
+  lookUpCorners({}, points, indices, corners);
+  EXPECT_EQ(corners.kinds, (std::vector{None, None, None, None}));
+}
+
+TEST(Morphing, doesNotDependOnTheNumberOfThreads) {
+  const scene::WorldGeometry world = makeSphereWorld();
+  const MirrorRays rays(world);
+  const Cells cells(rays, {2, 2, 2}, 0.15, makeOptions(world, 64));
+  std::vector<vec3> points;
+  for (const KnownPoint& k : makeKnownPoints(rays, kEye, {0}, 5000, 13)) points.emplace_back(k.scenePoint);
+  const auto cell = cells.grid.findCell(kEye);
+  core::setThreadCount(1);
+  const auto one = cells.morph(*cell, kEye, points);
+  core::setThreadCount(3);
+  const auto three = cells.morph(*cell, kEye, points);
+  core::setThreadCount(0);
+  EXPECT_EQ(one.kinds, three.kinds);
+  EXPECT_EQ(one.drawn, three.drawn);
 }
 
 TEST(Morphing, aTraceThatFewLocationsSeeHasNoWeight) {
@@ -199,6 +283,25 @@ TEST(Morphing, aTraceThatFewLocationsSeeHasNoWeight) {
   EXPECT_EQ(weighTrace(trace, even)[3], 0.0f);
   trace[4] = &sampled;
   EXPECT_FLOAT_EQ(weighTrace(trace, even)[3], 0.5f);
+}
+
+TEST(SamplingGrid, isAsFineAsTheErrorAsks) {
+  const scene::WorldGeometry world = makeSphereWorld();
+  const core::Box far{dvec3(-1, 0, 2), dvec3(1, 1, 3)}, around{dvec3(-1), dvec3(1)};
+  const double spacing = findSpacing(world, far, 0.5);
+  EXPECT_NEAR(spacing, 2 * std::sqrt(0.5 / 33), 1e-9);  // the box is 2 m away
+  EXPECT_NEAR(findSpacing(world, far, 0.125), 0.5 * spacing, 1e-9);
+  EXPECT_NEAR(findSpacing(world, around, 0.5), spacing * world.reflectors[0].radius / 2, 1e-9);  // no nearer
+  EXPECT_EQ(findSpacing(makeMirrorWorld({}), far, 0.5), 0);
+  EXPECT_EQ(makeGrid(far, 0.3, 64).counts, glm::uvec3(8, 5, 5));
+  EXPECT_EQ(makeGrid(far, 0.3, 4).counts, glm::uvec3(5));
+  EXPECT_EQ(makeGrid(far, 0, 64).counts, glm::uvec3(2));
+  for (const dvec3& eye : {dvec3(0.4, 0.3, 2.1), dvec3(-700, 3, 80), dvec3(0)}) {
+    const SamplingGrid grid = makePlanAround(world, eye).grid;
+    EXPECT_TRUE(grid.findCell(eye));
+    EXPECT_LE(grid.spacing().x, findSpacing(world, {eye, eye}, 0.5));
+    EXPECT_LT(grid.locationCount(), std::uint64_t(1) << 32);
+  }
 }
 
 TEST(SamplingGrid, weightsAddUpAndEndAtTheBox) {

@@ -207,6 +207,26 @@ TEST(GlbWriter, StoresLargeOpaqueTexturesAsJpegWhenAsked) {
   EXPECT_EQ(document["images"][1]["mimeType"], "image/png");
 }
 
+TEST(GlbWriter, MovingInstancesComeBack) {
+  Scene scene = makeEverything();
+  MotionNode node;
+  node.translation = {1, 2, 3};
+  node.rotation = glm::angleAxis(0.5, dvec3(0, 1, 0));
+  scene.motion.nodes = {node};
+  scene.motion.order = {0};
+  scene.instances.at(0).node = 0;
+  scene.motion.animations = {{"slide", 2, {{.node = 0, .timesS = {0, 2}, .values = {1, 2, 3, 4, 5, 6}}}}};
+  const Scene back = importGltf(makeGlb(scene), {}, "moving");
+  ASSERT_EQ(back.motion.animations.size(), 1u);
+  const Animation& animation = back.motion.animations[0];
+  EXPECT_EQ(animation.name, "slide");
+  EXPECT_EQ(animation.durationS, 2);
+  ASSERT_EQ(animation.channels.size(), 1u);
+  EXPECT_EQ(animation.channels[0].values, scene.motion.animations[0].channels[0].values);
+  EXPECT_EQ(animation.channels[0].node, back.instances.at(0).node);
+  EXPECT_EQ(dvec3(back.instances.at(0).worldFromMesh[3]), dvec3(1, 2, 3));
+}
+
 TEST(GlbWriter, EmptySceneIsAFileToo) {
   const Scene in = importGltf(makeGlb(Scene{}), {}, "empty.glb");
   EXPECT_TRUE(in.instances.empty());

@@ -227,6 +227,25 @@ TEST(WorldGeometry, OnlyKeepsNamedReflectors) {
   EXPECT_THROW((void)makeWorldGeometry(scene, {.only = {"nothing"}}), core::Error);
 }
 
+TEST(WorldGeometry, HybridReflectorsAsTheUserChooses) {
+  Scene scene = makeScene(makeCube());
+  EXPECT_FALSE(makeWorldGeometry(scene).reflectors.at(0).morphed.has_value());
+  scene.materials.at(0).hint.morphed = true;
+  Reflector r = makeWorldGeometry(scene).reflectors.at(0);
+  EXPECT_EQ(r.morphed, true);
+  EXPECT_EQ(r.morphedReason, "extras.catoptric of the material");
+  scene.instances.at(0).hint.morphed = false;
+  r = makeWorldGeometry(scene).reflectors.at(0);
+  EXPECT_EQ(r.morphed, false);
+  EXPECT_EQ(r.morphedReason, "extras.catoptric of the node");
+  const WorldGeometry named = makeWorldGeometry(scene, {.morphed = {"thing"}, .mapped = {"thing #2"}});
+  EXPECT_EQ(named.reflectors.at(0).morphed, true);
+  EXPECT_EQ(named.reflectors.at(0).morphedReason, "--morphed");
+  EXPECT_EQ(named.reflectors.at(1).morphed, false);
+  EXPECT_EQ(named.reflectors.at(1).morphedReason, "--mapped");
+  EXPECT_THROW((void)makeWorldGeometry(scene, {.mapped = {"nothing"}}), core::Error);
+}
+
 TEST(WorldGeometry, FloorIsShellAndBallIsNot) {
   Scene scene = makeScene(makeSphere(12, 6), Material{});
   scene.meshes.push_back({"floor", {makeFlatShadedQuad()}});

@@ -134,6 +134,25 @@ Instance& SceneBuilder::placeShell(const std::string& name, geometry::Mesh mesh,
   return instance;
 }
 
+void SceneBuilder::moveAlong(Instance& instance, std::span<const float> timesS, std::span<const vec3> places,
+                             double turnDegrees) {
+  MotionNode node;
+  node.name = instance.name;
+  node.translation = dvec3(places.front());
+  node.rotation = glm::angleAxis(glm::radians(turnDegrees), dvec3(0, 1, 0));
+  instance.node = int(scene_.motion.nodes.size());
+  scene_.motion.order.push_back(instance.node);
+  scene_.motion.nodes.push_back(node);
+  if (scene_.motion.animations.empty()) scene_.motion.animations.push_back({"motion", 0, {}});
+  Animation& animation = scene_.motion.animations.front();
+  AnimationChannel channel;
+  channel.node = instance.node;
+  channel.timesS.assign(timesS.begin(), timesS.end());
+  for (const vec3& place : places) channel.values.insert(channel.values.end(), {place.x, place.y, place.z});
+  animation.durationS = std::max(animation.durationS, double(timesS.back()));
+  animation.channels.push_back(channel);
+}
+
 void SceneBuilder::addSun(const dvec3& towardsLight, const vec3& color) {
   Light light;
   light.type = LightType::Directional;
@@ -167,6 +186,7 @@ void SceneBuilder::addWalk(const std::string& name, std::span<const Station> sta
   addCamera(name, stations[0].eye, stations[0].target, fovYDegrees);
   const int node = int(scene_.motion.nodes.size());
   scene_.cameras.back().node = node;
+  scene_.motion.order.push_back(node);
   AnimationChannel place{.node = node, .timesS = {}, .values = {}};
   AnimationChannel turn{
       .node = node, .property = AnimatedProperty::Rotation, .width = 4, .timesS = {}, .values = {}};

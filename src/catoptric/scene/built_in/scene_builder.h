@@ -51,6 +51,11 @@ class SceneBuilder {
   Instance& placeShell(const std::string& name, geometry::Mesh mesh, int material,
                        const dmat4& worldFromMesh = dmat4(1.0));
 
+  /// Key frames of the place of an instance, which must have been put where it is by a translation and a turn
+  /// around the vertical; linear between them.
+  void moveAlong(Instance& instance, std::span<const float> timesS, std::span<const vec3> places,
+                 double turnDegrees = 0);
+
   void addSun(const dvec3& towardsLight, const vec3& color);
   /// Candela.
   void addLamp(const dvec3& position, const vec3& color, double range = 0);

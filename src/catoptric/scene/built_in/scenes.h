@@ -22,6 +22,8 @@ namespace catoptric::scene::built_in {
 [[nodiscard]] Scene makeWavyWall();
 [[nodiscard]] Scene makeLenses();
 [[nodiscard]] Scene makeColumns();
+[[nodiscard]] Scene makeTeapotScene();
+[[nodiscard]] Scene makeFacingMirrors();
 [[nodiscard]] Scene makeFurnishedRoom();
 
 }  // namespace catoptric::scene::built_in

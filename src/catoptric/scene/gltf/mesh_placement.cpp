@@ -156,7 +156,7 @@ class MeshPlacer {
 };
 
 bool saysAnything(const ReflectorHint& hint) {
-  return hint.reflector || hint.shape || hint.reflectivity || hint.shell;
+  return hint.reflector || hint.shape || hint.reflectivity || hint.morphed || hint.shell;
 }
 
 }  // namespace

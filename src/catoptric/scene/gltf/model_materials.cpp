@@ -203,6 +203,7 @@ ReflectorHint readReflectorHint(Context& context, const Element& owner) {
   if (!ours) return hint;
   if (ours->has("reflector")) hint.reflector = ours->findBool("reflector", false);
   if (ours->has("shell")) hint.shell = ours->findBool("shell", false);
+  if (ours->has("morphed")) hint.morphed = ours->findBool("morphed", false);
   if (ours->has("reflectivity")) hint.reflectivity = float(ours->getNumber("reflectivity", 0, 1));
   if (ours->has("shape")) {
     hint.shape = ours->getString("shape");
@@ -213,7 +214,7 @@ ReflectorHint readReflectorHint(Context& context, const Element& owner) {
                                     printable(*hint.shape)));
   }
   for (const auto& [key, value] : ours->json().items())
-    if (key != "reflector" && key != "shell" && key != "reflectivity" && key != "shape")
+    if (key != "reflector" && key != "shell" && key != "morphed" && key != "reflectivity" && key != "shape")
       context.warn(fmt::format("extras.catoptric has the unknown member \"{}\", which was ignored (at {})",
                                printable(key), ours->pointer()));
   return hint;
