@@ -122,7 +122,6 @@ DepthReflectionMapMethod::Window& DepthReflectionMapMethod::findNearest(const ra
 void DepthReflectionMapMethod::warpReferences(raster::FrameContext& frame, const Pinhole& view,
                                               const PixelRectangle& rectangle) {
   std::uint32_t tag = 0;
-  NearnessSource firstSource;
   for (const Nearest& nearest : nearest_) {
     const MirrorWindow& window = windows_.at({nearest.key.reflector, nearest.key.isFromBehind}).window;
     const ReferenceCamera camera = makeReferenceCamera(window, nearest.centre, 0.5 * spacing_, options_.size);
@@ -136,9 +135,7 @@ void DepthReflectionMapMethod::warpReferences(raster::FrameContext& frame, const
     const WarpOptions warp{options_.splat, options_.visibility, level_, options_.skipsRegions};
     frame.counters.zexels += warp_.warp(image.map, {camera.centre, camera.worldFromZexel}, view, rectangle,
                                         tag, warp, tag == 0 ? winners_ : secondWinners_);
-    const NearnessSource source = makeNearnessSource(image.map, {camera.centre, camera.worldFromZexel}, view);
-    if (tag > 0) takeNearer(secondWinners_, source, firstSource, winners_);
-    if (tag == 0) firstSource = source;
+    if (tag > 0) fillExposures(secondWinners_, winners_);
     const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
     frame.counters.warpMs += spent.count();
     ++tag;

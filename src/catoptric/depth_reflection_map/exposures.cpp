@@ -2,10 +2,7 @@
 #include "catoptric/depth_reflection_map/exposures.h"
 
 #include <algorithm>
-#include <cassert>
 #include <vector>
-
-#include "catoptric/core/parallel.h"
 
 namespace catoptric::depth_reflection_map {
 namespace {
@@ -33,34 +30,6 @@ std::uint32_t findFarthestNeighbour(const WinnerImage& image, int x, int y,
 }
 
 }  // namespace
-
-double NearnessSource::nearness(std::uint32_t winner) const {
-  const std::uint32_t index = (winner & kWinnerIndexMask) - 1u;
-  const auto row = std::uint32_t((index + 0.5) / map->width);
-  const double x = index - row * std::uint32_t(map->width) + 0.5, y = row + 0.5;
-  const double d = map->levels[0].disparities[index];
-  return d / (rowOfW.x * x + rowOfW.y * y + rowOfW.z + d * perDisparity);
-}
-
-NearnessSource makeNearnessSource(const ZexelMap& map, const Pinhole& reference, const Pinhole& view) {
-  const dmat3 pixelFromWorld = glm::inverse(view.worldFromPixel);
-  const dmat3 pixelFromZexel = pixelFromWorld * reference.worldFromPixel;
-  return {&map, dvec3(pixelFromZexel[0].z, pixelFromZexel[1].z, pixelFromZexel[2].z),
-          (pixelFromWorld * (reference.centre - view.centre)).z};
-}
-
-void takeNearer(const WinnerImage& second, const NearnessSource& secondSource,
-                const NearnessSource& firstSource, WinnerImage& first) {
-  constexpr double kClearly = 1.06;  // as much as neighbours of one surface may differ
-  assert(second.winners.size() == first.winners.size());
-  core::parallelFor(first.winners.size(), 1u << 14, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t a = first.winners[i], b = second.winners[i];
-      if (b != 0 && (a == 0 || secondSource.nearness(b) > kClearly * firstSource.nearness(a)))
-        first.winners[i] = b;
-    }
-  });
-}
 
 Coverage measureCoverage(const WinnerImage& image, const MirrorPixels& mirror) {
   const PixelRectangle& r = image.rectangle;

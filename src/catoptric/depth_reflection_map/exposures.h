@@ -29,25 +29,6 @@ struct Coverage {
 
 [[nodiscard]] Coverage measureCoverage(const WinnerImage& image, const MirrorPixels& mirror);
 
-/// How near a reference's zexels are in a view: nearness = disparity / (rowOfW (column, row, 1) + disparity
-/// perDisparity), a depth of the view's own unit.
-struct NearnessSource {
-  const ZexelMap* map = nullptr;
-  dvec3 rowOfW{0, 0, 1};
-  double perDisparity = 0;
-
-  [[nodiscard]] double nearness(std::uint32_t winner) const;
-};
-
-[[nodiscard]] NearnessSource makeNearnessSource(const ZexelMap& map, const Pinhole& reference,
-                                                const Pinhole& view);
-
-/// Two references: exposures of the first are filled from the second, and where the second shows something
-/// clearly nearer, that is taken: the first may look past an object, on the side from which the eye does not
-/// see it, at what is behind.
-void takeNearer(const WinnerImage& second, const NearnessSource& secondSource,
-                const NearnessSource& firstSource, WinnerImage& first);
-
 constexpr std::uint32_t kNoTag = 4;
 
 /// The paper's colour coherence: an uncovered pixel keeps the zexel that it showed in the frame before.

@@ -245,4 +245,12 @@ std::uint64_t ForwardWarp::warp(const ZexelMap& map, const Pinhole& reference, c
   return std::accumulate(counts.begin(), counts.end(), std::uint64_t(0));
 }
 
+void fillExposures(const WinnerImage& second, WinnerImage& first) {
+  assert(second.winners.size() == first.winners.size());
+  core::parallelFor(first.winners.size(), 1u << 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      first.winners[i] = first.winners[i] != 0 ? first.winners[i] : second.winners[i];
+  });
+}
+
 }  // namespace catoptric::depth_reflection_map

@@ -99,4 +99,7 @@ class ForwardWarp {
   std::vector<WinnerImage> layers_;  ///< of the threads after the first; between calls nothing is in them
 };
 
+/// Pixels that `first` does not show are taken from `second`; both have the same rectangle.
+void fillExposures(const WinnerImage& second, WinnerImage& first);
+
 }  // namespace catoptric::depth_reflection_map

@@ -46,8 +46,7 @@ class Fingerprint {
 void addMaterial(const scene::Material& m, Fingerprint& print) {
   print.addAll(m.baseColor, m.metallic, m.roughness, m.normalScale, m.occlusionStrength, m.emissive,
                m.alphaMode, m.alphaCutoff, m.doubleSided, m.unlit, m.ior, m.specular, m.specularColor,
-               m.clearcoat, m.clearcoatRoughness, m.transmission, m.thickness, m.attenuationColor,
-               m.attenuationDistance);
+               m.clearcoat, m.clearcoatRoughness, m.transmission);
   for (const scene::TextureSlot* slot : {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture,
                                          &m.occlusionTexture, &m.emissiveTexture})
     print.addAll(slot->texture, slot->uvSet, slot->uvFromMesh);

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "catoptric/core/parallel.h"
-#include "catoptric/depth_reflection_map/exposures.h"
 #include "synthetic_scene.h"
 
 namespace catoptric::depth_reflection_map {
@@ -161,8 +160,7 @@ TEST(ForwardWarp, SecondReferenceFillsExposures) {
   ForwardWarp warp;
   WinnerImage more;
   warp.warp(second, other, kView, kAll, 1, {}, more);
-  takeNearer(more, makeNearnessSource(second, other, kView), makeNearnessSource(map(), kReference, kView),
-             image);
+  fillExposures(more, image);
   int uncovered = 0;
   for (int y = 0; y < kPixels; ++y)
     for (int x = 0; x < kPixels; ++x) uncovered += image.at(x, y) == 0 ? 1 : 0;
