@@ -15,7 +15,7 @@ import subprocess
 import tempfile
 
 FINE = ("plant", "ball", "ring", "teapot", "second teapot", "chair", "bookshelf", "sofa", "red sofa")
-STEPS = [(1, True), (2, True), (1, False), (2, False), (4, False), (7, False)]  # k, fine things left out
+STEPS = [(5, True), (9, True), (1, False), (2, False), (4, False), (7, False)]  # k, fine things left out
 METHODS = ("virtual-refined", "zexel")
 
 
@@ -91,7 +91,8 @@ def make_scene(source, target, k, without_fine):
             if "mesh" in node and node.get("name", "").rstrip(" 0123456789") in FINE:
                 del node["mesh"]
     used = {node["mesh"] for node in glb.json["nodes"] if "mesh" in node}
-    mirrors = {node["mesh"] for node in glb.json["nodes"] if node.get("name", "").endswith("mirror")}
+    mirrors = {node["mesh"] for node in glb.json["nodes"]
+               if "mesh" in node and node.get("name", "").endswith("mirror")}
     for index in used - mirrors if k > 1 else ():
         for primitive in glb.json["meshes"][index]["primitives"]:
             cut(glb, primitive, k)
