@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "catoptric/core/parallel.h"
 #include "synthetic_scene.h"
@@ -110,7 +111,9 @@ TEST(ForwardWarp, OrderShowsTheSameSurfacesAsAZBuffer) {
       return double(same) / covered;
     };
     const WarpOptions ordered{}, zBuffered{.visibility = Visibility::ZBuffer};
-    EXPECT_GE(share(ordered, zBuffered), 0.999) << eye.x;
+    const double same = share(ordered, zBuffered);
+    EXPECT_GE(same, 0.999) << eye.x;
+    std::printf("order and z-buffer: same surface at %.3f %% of the covered pixels\n", 100 * same);
   }
 }
 
