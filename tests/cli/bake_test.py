@@ -51,6 +51,15 @@ class Bake(support.CommandTest):
         self.succeed("bake", "columns.glb", "-o", "killed.bake", *counts)
         self.assertTrue(self.read("whole.bake") == self.read("killed.bake"))
 
+    def test_an_eye_outside_the_grid_sees_environment_maps_and_a_warning(self):
+        self.succeed("bake", "columns.glb", "-o", "columns.bake", *BOX)
+        outside = ("--eye", "0.06,1.15,2.6", *EYE[2:])
+        done = self.succeed("render", "columns.glb", "-o", "a.png", "--method", "morphing", "--baked", "columns.bake",
+                            "--mapped-below", "0", *outside)
+        self.assertIn("outside the grid", done.stderr.decode())
+        self.succeed("render", "columns.glb", "-o", "b.png", "--method", "environment", *outside)
+        self.assertEqual(self.read("a.png"), self.read("b.png"))
+
     def test_files_that_do_not_fit_are_refused_in_one_line(self):
         self.succeed("bake", "columns.glb", "-o", "columns.bake", *BOX)
         self.write("other.bake", b"something else")

@@ -15,7 +15,6 @@
 // are not fused, so both give the same bits. Cost: 12 ns a lane. Source: find_ray.cpp.
 #include "catoptric/reflection_morphing/ray_lanes.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -30,7 +29,6 @@ namespace {
 /// A RayTexel, or one number of eight searches.
 using Eight = float __attribute__((vector_size(32)));
 using Eights = Eight[8];
-using Mask = int __attribute__((vector_size(32)));
 static_assert(sizeof(RayTexel) == sizeof(Eight) && kRayLanes == 8);
 
 /// Numbers of a texel.
@@ -52,22 +50,20 @@ CATOPTRIC_INLINE void interpolate(const RayTexel* cell, int size, float u, float
 
 /// Step 2.
 CATOPTRIC_INLINE void transpose(Eights& m) {
-  constexpr Mask kLow{0, 8, 1, 9, 4, 12, 5, 13}, kHigh{2, 10, 3, 11, 6, 14, 7, 15};
-  constexpr Mask kFirst{0, 1, 8, 9, 4, 5, 12, 13}, kSecond{2, 3, 10, 11, 6, 7, 14, 15};
-  constexpr Mask kLeft{0, 1, 2, 3, 8, 9, 10, 11}, kRight{4, 5, 6, 7, 12, 13, 14, 15};
   Eights pairs, fours;
   for (int k = 0; k < 8; k += 2) {
-    pairs[k] = __builtin_shuffle(m[k], m[k + 1], kLow);
-    pairs[k + 1] = __builtin_shuffle(m[k], m[k + 1], kHigh);
+    pairs[k] = __builtin_shufflevector(m[k], m[k + 1], 0, 8, 1, 9, 4, 12, 5, 13);
+    pairs[k + 1] = __builtin_shufflevector(m[k], m[k + 1], 2, 10, 3, 11, 6, 14, 7, 15);
   }
   for (int k = 0; k < 8; k += 4)
     for (int h = 0; h < 2; ++h) {
-      fours[k + 2 * h] = __builtin_shuffle(pairs[k + h], pairs[k + h + 2], kFirst);
-      fours[k + 2 * h + 1] = __builtin_shuffle(pairs[k + h], pairs[k + h + 2], kSecond);
+      fours[k + 2 * h] = __builtin_shufflevector(pairs[k + h], pairs[k + h + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+      fours[k + 2 * h + 1] =
+          __builtin_shufflevector(pairs[k + h], pairs[k + h + 2], 2, 3, 10, 11, 6, 7, 14, 15);
     }
   for (int k = 0; k < 4; ++k) {
-    m[k] = __builtin_shuffle(fours[k], fours[k + 4], kLeft);
-    m[k + 4] = __builtin_shuffle(fours[k], fours[k + 4], kRight);
+    m[k] = __builtin_shufflevector(fours[k], fours[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+    m[k + 4] = __builtin_shufflevector(fours[k], fours[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
   }
 }
 

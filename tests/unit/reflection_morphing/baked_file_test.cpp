@@ -3,7 +3,9 @@
 // CATOPTRIC_DAMAGED_FILES=10000 runs the tests of damaged files with that many.
 #include "catoptric/reflection_morphing/baked_file.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <cstring>
@@ -52,7 +54,8 @@ class BakedFileTest : public testing::Test {
     plan_.grid = {{dvec3(-1, 0, 1.5), dvec3(1, 1, 2)}, {3, 2, 2}};
     plan_.options = makeOptions(world_, 24, 2, 2);
     const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-    path_ = std::filesystem::path(testing::TempDir()) / ("catoptric_" + name + ".bake");
+    // Of this process: another tree's suite may run at the same time.
+    path_ = std::filesystem::path(testing::TempDir()) / fmt::format("catoptric_{}_{}.bake", name, ::getpid());
     std::filesystem::remove(part());
   }
   ~BakedFileTest() override {
