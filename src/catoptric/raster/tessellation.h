@@ -45,7 +45,7 @@ struct TessellationOptions {
   /// No flat mirror stands between the reflector and the objects: triangles that turn their back to all of it
   /// are left out.
   bool isSeenDirectly = false;
-  std::size_t maxTriangles = 600000;  ///< budget; when hit, k is raised and one warning says so
+  std::size_t maxTriangles = 600000;      ///< budget; when hit, k is raised and one warning says so
   std::span<const std::uint8_t> parts{};  ///< by part: 0 leaves it out; empty: all parts
 };
 
