@@ -162,9 +162,10 @@ void DepthReflectionMapMethod::closeExposures(raster::FrameContext& frame, const
   continueSurfaces(mirror, winners_, [&](std::uint32_t winner) {
     const ReferenceImage& image = cache_.get(nearest_[winner >> kWinnerTagShift].key);
     const auto zexel = int((winner & kWinnerIndexMask) - 1u), width = image.map.width;
+    const int column = zexel % width, row = zexel / width;
     const double disparity = image.map.levels[0].disparities[std::size_t(zexel)];
     const dvec3 point = image.camera.centre + image.camera.worldFromZexel *
-                                                  dvec3(zexel % width + 0.5, zexel / width + 0.5, 1.0) /
+                                                  dvec3(column + 0.5, row + 0.5, 1.0) /
                                                   std::max(disparity, 1e-30);
     return disparity > 0 ? glm::length(point - view.centre) : 0.0;
   });

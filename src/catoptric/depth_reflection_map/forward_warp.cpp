@@ -60,12 +60,13 @@ void overlayRow(WinnerImage& later, std::size_t first, std::size_t end, WinnerIm
 void overlay(WinnerImage& later, WinnerImage& image) {
   if (later.written.isEmpty()) return;
   const PixelBox box = later.written;
-  core::parallelFor(std::size_t(box.upper.y - box.lower.y + 1), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) {
-      const std::size_t start = (std::size_t(box.lower.y) + row) * std::size_t(image.stride);
-      overlayRow(later, start + std::size_t(box.lower.x), start + std::size_t(box.upper.x) + 1, image);
-    }
-  });
+  core::parallelFor(
+      std::size_t(box.upper.y) + 1 - std::size_t(box.lower.y), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t row = begin; row < end; ++row) {
+          const std::size_t start = (std::size_t(box.lower.y) + row) * std::size_t(image.stride);
+          overlayRow(later, start + std::size_t(box.lower.x), start + std::size_t(box.upper.x) + 1, image);
+        }
+      });
   image.written.include(box);
   later.written = {};
 }
