@@ -26,8 +26,6 @@
 
 namespace catoptric::reflection_morphing {
 
-using raster::VertexKind;
-
 std::array<float, 8> weighTrace(const CellTrace& trace, const std::array<float, 8>& weights) {
   constexpr float kLeast = 0.25f;
   std::array<float, 8> result{};

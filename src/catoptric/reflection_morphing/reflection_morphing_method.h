@@ -46,6 +46,7 @@ class ReflectionMorphingMethod : public raster::ReflectionMethod {
     std::uint32_t reflector = 0;
     double sizePx = 0;
     bool areMoving = false;
+    // NOLINTNEXTLINE(modernize-use-nullptr): of the comparison with 0 that the compiler makes.
     auto operator<=>(const ObjectsKey&) const = default;
   };
   /// Kept from frame to frame.
