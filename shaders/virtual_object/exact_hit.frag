@@ -14,6 +14,13 @@
 #include "virtual_object/exact_ray.glsl"
 #ifdef MASKED
 #include "virtual_object/exact_point.glsl"
+
+/// From the textures that exact_rays.frag fills.
+void readRay(ivec2 pixel, out vec3 origin, out vec3 direction) {
+  origin = texelFetch(u_rayOrigins, pixel, 0).xyz;
+  direction = texelFetch(u_rayDirections, pixel, 0).xyz;
+}
+
 #include "virtual_object/pixel_ray.glsl"
 #endif
 

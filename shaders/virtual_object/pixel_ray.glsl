@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reflected ray of a pixel from the textures that exact_rays.frag fills. Needs exact_ray and exact_point.
+// The ray of a mirror pixel with its changes per pixel: differences to neighbours on the same mirror. Needs exact_point, and
+// before it a function  void readRay(ivec2 pixel, out vec3 origin, out vec3 direction).
 
 uniform usampler2D u_parentIds;
 
-/// How the reflected ray changes per pixel along one axis: difference to a neighbour on the same mirror, zero if there is
-/// none.
-void readRayStep(ivec2 pixel, ivec2 axis, vec3 origin, vec3 direction, out vec3 originStep, out vec3 directionStep) {
+/// Change along one axis; zero where neither neighbour is on the mirror of this pixel.
+void readRayStep(ivec2 pixel, ivec2 axis, PixelRay ray, out vec3 originStep, out vec3 directionStep) {
   originStep = directionStep = vec3(0.0f);
   ivec2 last = textureSize(u_parentIds, 0) - ivec2(1);
   uint key = texelFetch(u_parentIds, pixel, 0).y;
@@ -16,15 +16,16 @@ void readRayStep(ivec2 pixel, ivec2 axis, vec3 origin, vec3 direction, out vec3 
     sign = -1.0f;
     if (other == pixel || texelFetch(u_parentIds, other, 0).y != key) return;
   }
-  originStep = sign * (texelFetch(u_rayOrigins, other, 0).xyz - origin);
-  directionStep = sign * (texelFetch(u_rayDirections, other, 0).xyz - direction);
+  vec3 origin, direction;
+  readRay(other, origin, direction);
+  originStep = sign * (origin - ray.origin);
+  directionStep = sign * (direction - ray.direction);
 }
 
 PixelRay readPixelRay(ivec2 pixel) {
   PixelRay ray;
-  ray.origin = texelFetch(u_rayOrigins, pixel, 0).xyz;
-  ray.direction = texelFetch(u_rayDirections, pixel, 0).xyz;
-  readRayStep(pixel, ivec2(1, 0), ray.origin, ray.direction, ray.originDx, ray.directionDx);
-  readRayStep(pixel, ivec2(0, 1), ray.origin, ray.direction, ray.originDy, ray.directionDy);
+  readRay(pixel, ray.origin, ray.direction);
+  readRayStep(pixel, ivec2(1, 0), ray, ray.originDx, ray.directionDx);
+  readRayStep(pixel, ivec2(0, 1), ray, ray.originDy, ray.directionDy);
   return ray;
 }

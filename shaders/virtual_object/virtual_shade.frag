@@ -22,7 +22,6 @@ uniform uint u_part;
 uniform sampler2D u_parentRadiance;
 uniform sampler2D u_parentPosition;
 uniform sampler2D u_parentWeight;
-uniform usampler2D u_parentIds;
 uniform sampler2D u_hitDepth;
 
 /// Beside the edge of a virtual triangle, straight where its image is curved, the ray may miss the triangle itself. A little
@@ -35,6 +34,7 @@ RayHit keepNear(RayHit hit, float drawn) {
   float sum = inner.x + inner.y + inner.z;
   hit.weights = sum > 0.0f ? inner / sum : vec3(1.0f / 3.0f);
   hit.t = drawn;
+  if (hit.across == 0.0f) hit.across = -1.0f;  // edge-on: nothing divides by zero
   return hit;
 }
 
@@ -55,38 +55,19 @@ void readRay(ivec2 pixel, out vec3 origin, out vec3 direction) {
   direction = readMirrorDirection(u_parentRadiance, u_parentWeight, pixel);
 }
 
-bool isOfMirror(ivec2 pixel) { return texelFetch(u_parentIds, pixel, 0).y == u_parentWord; }
-
-/// Change along one axis; zero where neither neighbour is of this mirror.
-void readRayStep(ivec2 pixel, ivec2 axis, PixelRay ray, out vec3 originStep, out vec3 directionStep) {
-  originStep = directionStep = vec3(0.0f);
-  ivec2 other = min(pixel + axis, textureSize(u_parentIds, 0) - ivec2(1));
-  float sign = 1.0f;
-  if (other == pixel || !isOfMirror(other)) {
-    other = max(pixel - axis, ivec2(0));
-    sign = -1.0f;
-    if (other == pixel || !isOfMirror(other)) return;
-  }
-  vec3 origin, direction;
-  readRay(other, origin, direction);
-  originStep = sign * (origin - ray.origin);
-  directionStep = sign * (direction - ray.direction);
-}
-
+#ifdef EDGE
+#include "virtual_object/pixel_ray.glsl"
+#else
 PixelRay readPixelRay(ivec2 pixel) {
   PixelRay ray;
   readRay(pixel, ray.origin, ray.direction);
-#ifdef EDGE
-  readRayStep(pixel, ivec2(1, 0), ray, ray.originDx, ray.directionDx);
-  readRayStep(pixel, ivec2(0, 1), ray, ray.originDy, ray.directionDy);
-#else
   ray.originDx = dFdx(ray.origin);
   ray.originDy = dFdy(ray.origin);
   ray.directionDx = dFdx(ray.direction);
   ray.directionDy = dFdy(ray.direction);
-#endif
   return ray;
 }
+#endif
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -95,7 +76,7 @@ void main() {
   uvec4 corners = readTriangle(max(stored.x, 1u) - 1u);
   if (stored.x == 0u || corners.w >> 2u != u_part) discard;
 #ifdef EDGE
-  if (!isOfMirror(pixel)) discard;
+  if (texelFetch(u_parentIds, pixel, 0).y != u_parentWord) discard;
 #endif
 
   float path = texelFetch(u_parentPosition, pixel, 0).w;

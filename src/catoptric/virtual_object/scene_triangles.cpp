@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "catoptric/core/error.h"
@@ -13,20 +14,25 @@ namespace {
 
 constexpr std::size_t kVertexTexels = 5;
 
-/// Rows of a width that every GL takes, filled up with zeros.
+/// Rows of a width that every GL takes.
+ivec2 findTableSize(std::size_t texels) {
+  const int width = std::min(4096, gl::maxTextureSize());
+  const std::size_t height = std::max<std::size_t>(1, (texels + std::size_t(width) - 1) / std::size_t(width));
+  return {width, int(std::min<std::size_t>(height, std::numeric_limits<int>::max()))};
+}
+
+/// Filled up with zeros.
 template <class Texel>
 std::unique_ptr<gl::Texture> makeTable(gl::Format format, std::vector<Texel>& texels) {
-  const int width = std::min(4096, gl::maxTextureSize());
-  const std::size_t height =
-      std::max<std::size_t>(1, (texels.size() + std::size_t(width) - 1) / std::size_t(width));
-  if (height > std::size_t(gl::maxTextureSize()))
+  const ivec2 size = findTableSize(texels.size());
+  if (size.y > gl::maxTextureSize())
     throw core::Error("gl.texture_size",
                       fmt::format("the scene's triangles need a texture of {}x{}, this GL takes {} at most",
-                                  width, height, gl::maxTextureSize()),
-                      {}, "use --solver explosion");
-  texels.resize(std::size_t(width) * height);
-  auto texture = std::make_unique<gl::Texture>(gl::TextureKind::Flat, format, width, int(height), 1, 1,
-                                               gl::SamplerState{});
+                                  size.x, size.y, gl::maxTextureSize()),
+                      {}, "use --solver refined");
+  texels.resize(std::size_t(size.x) * std::size_t(size.y));
+  auto texture =
+      std::make_unique<gl::Texture>(gl::TextureKind::Flat, format, size.x, size.y, 1, 1, gl::SamplerState{});
   texture->upload(0, 0, texels.data());
   return texture;
 }
@@ -38,6 +44,11 @@ std::uint32_t findCoverFlags(const raster::SceneBuffers& scene, std::uint32_t pa
   return (material.isSeenFromBehind() ? 0u : kCoverSingleSided) |
          (material.alphaMode == scene::AlphaMode::Mask ? kCoverMasked : 0u) |
          (scene.isBlended(part) ? kCoverBlended : 0u);
+}
+
+bool SceneTriangles::fits(const scene::WorldGeometry& world) {
+  const std::size_t most = std::max(world.triangleCount(), kVertexTexels * world.positions.size());
+  return findTableSize(most).y <= gl::maxTextureSize();
 }
 
 SceneTriangles::SceneTriangles(const raster::SceneBuffers& scene) {

@@ -24,7 +24,9 @@ enum VertexAttribute : unsigned { kWithColors = 32, kWithSecondUv = 64 };
 
 class SceneTriangles {
  public:
-  /// Throws core::Error("gl.texture_size") for a scene that does not fit into a texture.
+  /// Do the scene's vertices and triangles fit into textures of this GL?
+  [[nodiscard]] static bool fits(const scene::WorldGeometry& world);
+  /// Throws core::Error("gl.texture_size") for a scene that does not fit.
   explicit SceneTriangles(const raster::SceneBuffers& scene);
 
   [[nodiscard]] const gl::Texture& triangles() const { return *triangles_; }

@@ -110,7 +110,7 @@ void VirtualObjectMethod::drawObjects(raster::FrameContext& frame, const raster:
   const auto& reflectors = frame.scene.geometry().reflectors;
   if (chain.last != *chain.curved)
     raster::clipAtLastMirror(reflectors[chain.last], chain.last, reflectors[*chain.curved].centre, view);
-  if (usesNumbers(chain)) {
+  if (usesNumbers(chain, frame.scene.geometry())) {
     drawNumbered(frame, chain, view, p, target);
     return;
   }

@@ -64,9 +64,9 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
                                    Prepared& prepared) const;
 
   /// Are triangles drawn as numbers, and shaded once a pixel? Not those of the method as published, nor those
-  /// that a flat mirror behind the curved one cuts.
-  [[nodiscard]] bool usesNumbers(const raster::Chain& chain) const {
-    return solver_ == Solver::Refined && chain.last == *chain.curved;
+  /// that a flat mirror behind the curved one cuts, nor those of a scene too large for textures.
+  [[nodiscard]] bool usesNumbers(const raster::Chain& chain, const scene::WorldGeometry& world) const {
+    return solver_ == Solver::Refined && chain.last == *chain.curved && SceneTriangles::fits(world);
   }
   void drawNumbered(raster::FrameContext& frame, const raster::Chain& chain, const raster::SurfaceView& view,
                     Prepared& prepared, raster::Level& target);
