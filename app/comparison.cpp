@@ -162,6 +162,7 @@ Json makeJson(const Comparison& comparison, const ComparisonRow& row) {
             {"width", comparison.frame.widthPx},
             {"height", comparison.frame.heightPx},
             {"bounces", comparison.frame.bounces},
+            {"merge", renderer::mergeName(row.variant.merge.value_or(comparison.frame.merge))},
             {"samples", comparison.frame.samples},
             {"displacement",
              {{"mirror_pixels", makeJson(row.displacement.mirrorPixels)},

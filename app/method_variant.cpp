@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "method_variant.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "catoptric/core/progress.h"
 #include "option_values.h"
+#include "shared_options.h"
 #include "suggest.h"
 
 namespace catoptric::app {
@@ -95,13 +98,18 @@ std::vector<MethodVariant> parseMethodList(const std::string& text) {
   std::vector<std::string> names;
   for (const MethodVariant& variant : methodVariants()) names.push_back(variant.name);
   for (const std::string& word : splitList(text)) {
-    const auto at = std::find(names.begin(), names.end(), word);
+    const std::size_t plus = std::min(word.find('+'), word.size());
+    const auto at = std::find(names.begin(), names.end(), word.substr(0, plus));
     if (at == names.end())
       throw UsageError("--methods: there is no '" + word + "'",
                        makeSuggestion(word, names, "there are " + listMethodNames()));
     for (const MethodVariant& variant : chosen)
       if (variant.name == word) throw UsageError("--methods: '" + word + "' is named twice");
     chosen.push_back(methodVariants()[std::size_t(at - names.begin())]);
+    if (plus == word.size()) continue;
+    chosen.back().name = word;
+    chosen.back().merge = parseMerge("--methods", word.substr(plus + 1));
+    chosen.back().description += fmt::format(", merged by {}", word.substr(plus + 1));
   }
   return chosen;
 }
@@ -111,6 +119,7 @@ renderer::FrameOptions withMethod(renderer::FrameOptions options, const MethodVa
   options.solver = variant.solver;
   options.boxCorrected = variant.boxCorrected;
   options.allDynamic = variant.allDynamic;
+  if (variant.merge) options.merge = *variant.merge;
   return options;
 }
 

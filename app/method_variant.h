@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,9 @@ struct MethodVariant {
   renderer::Method method = renderer::Method::Auto;
   renderer::Solver solver = renderer::Solver::Auto;
   bool boxCorrected = true;
-  bool allDynamic = false;  ///< of morphing
-  bool byDefault = true;    ///< false: only where it is named
+  bool allDynamic = false;                 ///< of morphing
+  bool byDefault = true;                   ///< false: only where it is named
+  std::optional<renderer::Merge> merge{};  ///< "virtual-refined+stencil"; none: as --merge says
 };
 
 /// Slowest-looking last: none, environment-plain, environment, virtual-explosion, virtual-layered,
@@ -31,7 +33,8 @@ struct MethodVariant {
 /// Those that are drawn where none is named.
 [[nodiscard]] std::vector<MethodVariant> defaultVariants();
 
-/// --methods A,B,C. Throws UsageError for a name that is not there or is there twice.
+/// --methods A,B,C; a name may end in "+" and a name of --merge. Throws UsageError for one that is not there
+/// or is there twice.
 [[nodiscard]] std::vector<MethodVariant> parseMethodList(const std::string& text);
 [[nodiscard]] std::string listMethodNames();
 

@@ -48,6 +48,7 @@ Json makeFrameJson(const renderer::FrameOptions& options, const renderer::Frame&
           {"width", options.widthPx},
           {"height", options.heightPx},
           {"bounces", options.bounces},
+          {"merge", renderer::mergeName(options.merge)},
           {"samples", options.samples},
           {"timings",
            {{"total_ms", times.totalMs},

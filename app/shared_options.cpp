@@ -25,6 +25,10 @@ const std::vector<renderer::Solver> kSolvers{renderer::Solver::Auto,     rendere
                                              renderer::Solver::Analytic, renderer::Solver::Subdivision,
                                              renderer::Solver::Exact};
 
+const std::vector<renderer::Merge> kMerges{renderer::Merge::Ids,   renderer::Merge::Stencil,
+                                           renderer::Merge::Erase, renderer::Merge::Depth,
+                                           renderer::Merge::Clip,  renderer::Merge::Texture};
+
 /// The value whose name was typed.
 template <class Value>
 Value choose(const std::string& option, const std::string& text, const std::vector<Value>& values,
@@ -48,6 +52,10 @@ Setter setDegrees(const std::string& option, std::optional<double>& target, doub
 }
 
 }  // namespace
+
+renderer::Merge parseMerge(const std::string& option, const std::string& text) {
+  return choose(option, text, kMerges, renderer::mergeName);
+}
 
 void declareOutput(Arguments& arguments, OutputOptions& options) {
   arguments.group("Output");
@@ -128,6 +136,13 @@ void declarePicture(Arguments& arguments, PictureOptions& options) {
   arguments.option(
       "--max-error", "PX", "Aim for the tessellation of reflected objects; default 0.5",
       [&](const std::string& text) { frame.maxErrorPx = parseNumber("--max-error", text, 0.01, 100); });
+  arguments.option(
+      "--merge", "NAME",
+      "How what mirrors show is kept within them: ids (default), stencil, erase, depth, clip, texture",
+      [&](const std::string& text) { frame.merge = parseMerge("--merge", text); });
+  arguments.option(
+      "--texture-scale", "X", "Of --merge texture: its resolution, against the picture's; default 1",
+      [&](const std::string& text) { frame.textureScale = parseNumber("--texture-scale", text, 0.01, 1); });
   arguments.option("--environment", "FILE", "Surroundings, .hdr or .exr; default: a built-in sky",
                    setText(options.environment));
   arguments.option(

@@ -43,7 +43,9 @@ void declareScene(Arguments& arguments, SceneOptions& options);
 /// --time, --animation.
 void declareMotion(Arguments& arguments, SceneOptions& options);
 void declareCamera(Arguments& arguments, CameraOptions& options);
-/// What is drawn however it is drawn: --size, --bounces, --samples, ...
+/// Of --merge. Throws UsageError; `option` is what the text was given to.
+[[nodiscard]] renderer::Merge parseMerge(const std::string& option, const std::string& text);
+/// What is drawn however it is drawn: --size, --bounces, --samples, --merge, ...
 void declarePicture(Arguments& arguments, PictureOptions& options);
 /// --baked
 void declareBaked(Arguments& arguments, renderer::FrameOptions& options);

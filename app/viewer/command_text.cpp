@@ -47,6 +47,9 @@ std::string makeCommandText(const LoadRequest& scene, const scene::Camera& camer
   add("--bounces", fmt::format("{}", options.bounces));
   if (options.samples != standard.samples) add("--samples", fmt::format("{}", options.samples));
   if (options.maxErrorPx != standard.maxErrorPx) add("--max-error", fmt::format("{}", options.maxErrorPx));
+  if (options.merge != standard.merge) add("--merge", std::string(renderer::mergeName(options.merge)));
+  if (options.textureScale != standard.textureScale)
+    add("--texture-scale", fmt::format("{}", options.textureScale));
   if (!scene.environment.empty()) add("--environment", scene.environment);
   if (exposure != 1.0f) add("--exposure", fmt::format("{}", exposure));
   add("--eye", vectorText(camera.eye));

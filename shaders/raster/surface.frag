@@ -2,7 +2,9 @@
 // Shades a fragment of the scene in world space, seen directly (level 0) or as a virtual object through a chain of
 // mirrors (level > 0).
 // Defines, besides TEXTURES (see raster/material.glsl):
-//   PARENT   level > 0
+//   PARENT   level > 0: view rays start where the level before says
+//   MASK     and only its pixels that show the mirror are drawn
+//   CLIP     half spaces are cut off, by the vertex shader where the language has clip distances
 //   MIRROR   a reflector: stores what the next level needs. Others store
 //   SEEN     what is seen at this pixel, too
 //   OVERLAY  blended surfaces: only premultiplied colour
@@ -27,12 +29,10 @@ uniform vec3 u_eye;               // level 0: where the view ray starts, world
 uniform vec3 u_drawEye;           // the eye in draw space
 uniform int u_windingFlipped;     // 1 where an odd number of mirrors turned the winding round
 
-#ifdef PARENT
 uniform uint u_parentWord;        // ids.g that a pixel of the level before must have
-uniform vec4 u_clipPlane;         // world: dot(xyz, p) + w >= 0 lies before the last planar mirror; zero = none
+uniform vec4 u_clipPlanes[8];     // world: dot(xyz, p) + w >= 0 lies before the last planar mirror, ...
 uniform sampler2D u_parentPosition;
 uniform usampler2D u_parentIds;
-#endif
 
 layout(location = 0) out vec4 o_radiance;
 #if defined(MIRROR)
@@ -49,14 +49,20 @@ layout(location = 2) out vec4 o_position;
 /// False where this fragment cannot be seen through its chain; `from` is where the last view ray starts.
 bool isSeenThroughChain(ivec2 pixel, float path, out vec3 from) {
   from = u_eye;
-#ifdef PARENT
+#ifdef MASK
   if (texelFetch(u_parentIds, pixel, 0).y != u_parentWord) return false;
+#endif
+#ifdef PARENT
   vec4 parent = texelFetch(u_parentPosition, pixel, 0);
   from = parent.xyz;
-  if (dot(u_clipPlane.xyz, v_position) + u_clipPlane.w < 0.0f) return false;
+  if (dot(u_clipPlanes[0], vec4(v_position, 1.0f)) < 0.0f) return false;
   // The second z-buffer of 1998, section 3: nothing lies before the mirror that shows it.
   return path >= parent.w * 0.99999f;
 #else
+#if defined(CLIP) && defined(GL_ES)
+  for (int i = 0; i < 8; ++i)
+    if (dot(u_clipPlanes[i], vec4(v_position, 1.0f)) < 0.0f) return false;
+#endif
   return true;
 #endif
 }

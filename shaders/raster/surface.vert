@@ -12,6 +12,11 @@ layout(location = 6) in vec3 a_drawPosition;  // draw space: world, or what the 
 
 uniform mat4 u_clipFromDraw;
 
+#if defined(CLIP) && !defined(GL_ES)  // surface.frag does it under GLSL ES 3.00, which has no gl_ClipDistance
+uniform vec4 u_clipPlanes[8];         // world: dot(xyz, p) + w >= 0 is drawn
+out float gl_ClipDistance[8];
+#endif
+
 out vec3 v_position;
 out vec3 v_normal;
 out vec4 v_tangent;
@@ -29,4 +34,7 @@ void main() {
   v_color = a_color;
   v_drawPosition = a_drawPosition;
   gl_Position = u_clipFromDraw * vec4(a_drawPosition, 1.0f);
+#if defined(CLIP) && !defined(GL_ES)
+  for (int i = 0; i < 8; ++i) gl_ClipDistance[i] = dot(u_clipPlanes[i], vec4(a_position, 1.0f));
+#endif
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "catoptric/renderer/near_plane.h"
 #include "catoptric/renderer/raster_frame.h"
 #include "gl_test_support.h"
 #include "traced_scene.h"

@@ -20,7 +20,11 @@ Framebuffer::Framebuffer(std::span<const Texture* const> colors, const Texture* 
     width_ = color->width();
     height_ = color->height();
   }
-  if (depth) glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth->id(), 0);
+  if (depth)
+    glFramebufferTexture2D(
+        GL_FRAMEBUFFER,
+        depth->format() == Format::Depth32FStencil8 ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
+        GL_TEXTURE_2D, depth->id(), 0);
   glDrawBuffers(GLsizei(drawBuffers.size()), drawBuffers.data());
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE) {
@@ -43,10 +47,12 @@ void Framebuffer::bind() const {
 }
 
 void Framebuffer::clearColor(int attachment, const vec4& value) const {
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glClearBufferfv(GL_COLOR, attachment, &value[0]);
 }
 
 void Framebuffer::clearColor(int attachment, const uvec4& value) const {
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glClearBufferuiv(GL_COLOR, attachment, &value[0]);
 }
 
@@ -54,6 +60,12 @@ void Framebuffer::clearDepth() const {
   const float one = 1.0f;
   glDepthMask(GL_TRUE);
   glClearBufferfv(GL_DEPTH, 0, &one);
+}
+
+void Framebuffer::clearStencil() const {
+  const GLint zero = 0;
+  glStencilMask(0xff);
+  glClearBufferiv(GL_STENCIL, 0, &zero);
 }
 
 void Framebuffer::readPixels(int attachment, std::span<vec4> out) const {
@@ -81,10 +93,31 @@ void Framebuffer::copyToCubeFace(int attachment, const Texture& cube, int face) 
   glCopyTexSubImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + unsigned(face), 0, 0, 0, 0, 0, width_, height_);
 }
 
+namespace {
+
+void setStencil(StencilRule rule, GLint value) {
+  if (rule == StencilRule::None) {
+    glDisable(GL_STENCIL_TEST);
+    return;
+  }
+  const bool writes = rule == StencilRule::Write;
+  glEnable(GL_STENCIL_TEST);
+  glStencilFunc(writes ? GL_ALWAYS : GL_EQUAL, value, 0xff);
+  glStencilOp(GL_KEEP, GL_KEEP, writes ? GL_REPLACE : GL_KEEP);
+  glStencilMask(writes ? 0xff : 0);
+}
+
+}  // namespace
+
 void setDrawState(const DrawState& state) {
+  const GLboolean color = state.colorWrite ? GL_TRUE : GL_FALSE;
+  glColorMask(color, color, color, color);
+  setStencil(state.stencil, state.stencilValue);
+  for (int i = 0; i < kMostClipDistances; ++i)
+    (i < state.clipDistances ? glEnable : glDisable)(GL_CLIP_DISTANCE0 + unsigned(i));
   if (state.depthTest) {
     glEnable(GL_DEPTH_TEST);
-    glDepthFunc(state.depthEqual ? GL_LEQUAL : GL_LESS);
+    glDepthFunc(state.depthAlways ? GL_ALWAYS : state.depthEqual ? GL_LEQUAL : GL_LESS);
   } else {
     glDisable(GL_DEPTH_TEST);
   }

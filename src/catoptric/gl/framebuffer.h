@@ -29,6 +29,7 @@ class Framebuffer {
   void clearColor(int attachment, const vec4& value) const;
   void clearColor(int attachment, const uvec4& value) const;
   void clearDepth() const;
+  void clearStencil() const;  ///< to 0; `depth` must have a stencil
 
   /// Reads an attachment, bottom row first, into 4 floats or 2 unsigned integers per pixel.
   void readPixels(int attachment, std::span<vec4> out) const;
@@ -47,10 +48,23 @@ class Framebuffer {
 
 enum class Cull : std::uint8_t { None, Back, Front };
 
+constexpr int kMostClipDistances = 8;  ///< that every OpenGL 3.3 has
+
+enum class StencilRule : std::uint8_t {
+  None,        ///< drawn whatever the stencil says
+  WhereEqual,  ///< drawn where it has the value
+  Write        ///< the value is stored wherever something is drawn
+};
+
 struct DrawState {
-  bool depthTest = true;    ///< drawn where nothing nearer is
-  bool depthEqual = false;  ///< nor anything as near
+  bool depthTest = true;     ///< drawn where nothing nearer is
+  bool depthEqual = false;   ///< nor anything as near
+  bool depthAlways = false;  ///< drawn, and its depth stored, whatever is there
   bool depthWrite = true;
+  bool colorWrite = true;
+  StencilRule stencil = StencilRule::None;
+  std::uint8_t stencilValue = 0;
+  int clipDistances = 0;  ///< of gl_ClipDistance[], the first so many count; none under OpenGL ES
   Cull cull = Cull::None;
   bool blendPremultiplied = false;  ///< source + destination * (1 - source alpha)
 };

@@ -127,7 +127,7 @@ void Program::set(std::string_view uniform, const std::vector<vec3>& values) {
   glUniform3fv(location(uniform), GLsizei(values.size()), &values[0][0]);
 }
 
-void Program::set(std::string_view uniform, const std::vector<vec4>& values) {
+void Program::set(std::string_view uniform, std::span<const vec4> values) {
   if (!values.empty()) glUniform4fv(location(uniform), GLsizei(values.size()), &values[0][0]);
 }
 

@@ -2,6 +2,7 @@
 // A GLSL program made of the embedded files of shaders/.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -35,7 +36,7 @@ class Program {
   void set(std::string_view uniform, const vec4& value);
   void set(std::string_view uniform, const mat4& value);
   void set(std::string_view uniform, const std::vector<vec3>& values);
-  void set(std::string_view uniform, const std::vector<vec4>& values);
+  void set(std::string_view uniform, std::span<const vec4> values);
   /// Connects a uniform block to a binding point (once, after linking).
   void bindBlock(const char* block, unsigned bindingPoint);
 

@@ -33,6 +33,8 @@ FormatInfo infoOf(Format format) {
       return {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT};
     case Format::Depth32F:
       return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT};
+    case Format::Depth32FStencil8:
+      return {GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV};
   }
   return {};
 }

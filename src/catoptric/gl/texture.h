@@ -16,7 +16,8 @@ enum class Format : std::uint8_t {
   R32Ui,
   Rg32Ui,
   Rgba32Ui,
-  Depth32F
+  Depth32F,
+  Depth32FStencil8
 };
 enum class TextureKind : std::uint8_t { Flat, Array, Cube };
 enum class TextureWrap : std::uint8_t { Repeat, MirroredRepeat, ClampToEdge };

@@ -4,6 +4,7 @@
 // mirror, only where the level before shows that mirror.
 #pragma once
 
+#include "catoptric/planar_mirror/projective_texture.h"
 #include "catoptric/raster/reflection_method.h"
 
 namespace catoptric::planar_mirror {
@@ -18,7 +19,14 @@ class PlanarMirrorMethod : public raster::ReflectionMethod {
               raster::Level& target) override;
 
  private:
+  void drawBlended(raster::FrameContext& frame, const raster::SurfaceView& view, raster::Level& target);
+  /// Adds the planes through the eye and the mirror's edges, if they keep everything within its pixels and
+  /// out of the other mirrors'.
+  [[nodiscard]] bool addEdgePlanes(const raster::FrameContext& frame, const raster::Chain& chain,
+                                   raster::PinholeView& mirrored) const;
+
   raster::MirrorBackgroundPass background_;
+  std::unique_ptr<ProjectiveTexture> texture_;  ///< made when first needed
   std::unique_ptr<raster::VertexStreams> blendedStreams_;
   std::vector<std::uint32_t> sortedIndices_;
   std::vector<raster::DrawRange> ranges_, sortedRanges_;

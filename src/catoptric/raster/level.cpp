@@ -16,14 +16,15 @@ gl::Framebuffer makeFramebuffer(std::initializer_list<const gl::Texture*> colors
 
 }  // namespace
 
-Level::Level(int width, int height)
+Level::Level(int width, int height, bool withStencil)
     : widthPx(width),
       heightPx(height),
+      hasStencil(withStencil),
       radiance(makeTarget(gl::Format::Rgba32F, width, height)),
       position(makeTarget(gl::Format::Rgba32F, width, height)),
       weight(makeTarget(gl::Format::Rgba32F, width, height)),
       ids(makeTarget(gl::Format::Rg32Ui, width, height)),
-      depth(makeTarget(gl::Format::Depth32F, width, height)),
+      depth(makeTarget(withStencil ? gl::Format::Depth32FStencil8 : gl::Format::Depth32F, width, height)),
       overlay(makeTarget(gl::Format::Rgba32F, width, height)),
       color(makeTarget(gl::Format::Rgba32F, width, height)),
       seenPosition(makeTarget(gl::Format::Rgba32F, width, height)),
@@ -42,6 +43,14 @@ void Level::clear(const gl::Scissor& drawn) {
   surfaces.clearColor(3,
                       uvec4(0u));  // where ids say that there is nothing, the other three are never looked at
   surfaces.clearDepth();
+  stencilValues = 0;
+  if (hasStencil) surfaces.clearStencil();
+}
+
+void Level::bindOverlay() {
+  overlays.bind();
+  if (!hasOverlay) overlays.clearColor(0, vec4(0.0f));
+  hasOverlay = true;
 }
 
 void Level::bindAsParent(gl::Program& program) const {

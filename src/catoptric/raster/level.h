@@ -15,17 +15,20 @@
 namespace catoptric::raster {
 
 struct Level {
-  Level(int widthPx, int heightPx);
+  explicit Level(int widthPx, int heightPx, bool withStencil = false);
 
   /// Nothing is stored, and nothing will be outside of `drawn`.
   void clear(const gl::Scissor& drawn);
   void clear() { clear({0, 0, widthPx, heightPx}); }
   /// What is drawn into where no mirror is.
   [[nodiscard]] const gl::Framebuffer& plainTarget() const { return withSeen ? plainSeen : plain; }
+  /// Binds what blended surfaces are drawn into.
+  void bindOverlay();
   /// Binds the stored pictures as the "parent" that the next level reads.
   void bindAsParent(gl::Program& program) const;
 
   int widthPx, heightPx;
+  bool hasStencil;
   gl::Texture radiance, position, weight, ids, depth;
   gl::Texture overlay;                       ///< blended surfaces, premultiplied
   gl::Texture color, seenPosition, seenIds;  ///< composed
@@ -36,6 +39,7 @@ struct Level {
   bool withSeen = true;                     ///< also says what is seen at each pixel
   gl::Scissor drawnBounds;                  ///< pixels that may show something
   bool hasOverlay = false;
+  int stencilValues = 0;    ///< given to mirrors so far
   bool isComplete = false;  ///< something was drawn for every mirror pixel of the level before
 };
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "catoptric/raster/mirror_mask.h"
 #include "catoptric/raster/surface_pass.h"
 
 namespace catoptric::raster {
@@ -36,7 +37,11 @@ struct FrameContext {
   double nearPlane = 0.01;
   dvec2 jitterPx{0.5, 0.5};
   double maxErrorPx = 0.5;
+  Merge merge = Merge::Ids;
+  double textureScale = 1;  ///< of Merge::Texture: its pixels along an edge : the picture's
   MethodCounters& counters;
+  /// Of the chain that render() gets: surfaces are drawn so, or by looking up ids.
+  Masking masking{};
   /// Ids of the level that render() gets as `parent`, bottom row first.
   std::span<const uvec2> parentIds{};
 };

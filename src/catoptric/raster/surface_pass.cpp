@@ -38,7 +38,10 @@ void setView(gl::Program& program, const SceneBuffers& scene, const SurfaceView&
   program.set("u_eye", vec3(view.eye));
   program.set("u_drawEye", vec3(view.drawEye));
   program.set("u_windingFlipped", view.windingFlipped ? 1 : 0);
-  program.set("u_clipPlane", view.clipPlane);
+  vec4 planes[ClipPlanes::kMost];
+  std::fill(std::begin(planes), std::end(planes), vec4(0, 0, 0, 1));  // cuts nothing
+  std::copy_n(view.clip.planes.begin(), view.clip.count, planes);
+  program.set("u_clipPlanes", planes);
   if (view.parent) view.parent->bindAsParent(program);
   program.set("u_parentWord", view.chain ? view.chain->parentWord() : 0u);
 }
@@ -49,8 +52,9 @@ gl::Program& SurfacePass::findProgram(unsigned features) {
   std::unique_ptr<gl::Program>& program = programs_[features];
   if (!program) {
     std::vector<std::string> defines{"TEXTURES " + std::to_string(features & 31u)};
-    const std::pair<Feature, const char*> names[] = {
-        {kOverlay, "OVERLAY"}, {kMirror, "MIRROR"}, {kSeen, "SEEN"}, {kParent, "PARENT"}};
+    const std::pair<Feature, const char*> names[] = {{kOverlay, "OVERLAY"}, {kMirror, "MIRROR"},
+                                                     {kSeen, "SEEN"},       {kParent, "PARENT"},
+                                                     {kIds, "MASK"},        {kClip, "CLIP"}};
     for (const auto& [feature, name] : names)
       if ((features & feature) != 0) defines.emplace_back(name);
     program = std::make_unique<gl::Program>("raster/surface.vert", "raster/surface.frag", defines);
@@ -79,16 +83,16 @@ void SurfacePass::draw(const SceneBuffers& scene, const VertexStreams& streams,
 void SurfacePass::drawBlended(const SceneBuffers& scene, const VertexStreams& streams,
                               std::span<const DrawRange> ranges, const SurfaceView& view, Level& target) {
   if (ranges.empty()) return;
-  target.overlays.bind();
-  if (!target.hasOverlay) target.overlays.clearColor(0, vec4(0.0f));
-  target.hasOverlay = true;
+  target.bindOverlay();
   if (view.chain) gl::setScissor(view.chain->bounds);
   drawRanges(scene, streams, ranges, view, kOverlay);
 }
 
 void SurfacePass::drawRanges(const SceneBuffers& scene, const VertexStreams& streams,
                              std::span<const DrawRange> ranges, const SurfaceView& view, unsigned features) {
-  if (view.parent) features |= kParent;
+  if (view.parent) features |= view.masking.testsIds ? kParent | kIds : kParent;
+  const bool clipsInVertexShader = !view.parent && view.clip.count > 0;
+  if (clipsInVertexShader) features |= kClip;
   const bool blended = (features & kOverlay) != 0;
   const scene::WorldGeometry& world = scene.geometry();
   std::uint32_t prepared = 0;  // bit k: the program for textures k knows this view
@@ -108,6 +112,9 @@ void SurfacePass::drawRanges(const SceneBuffers& scene, const VertexStreams& str
     const gl::Cull hidden = view.windingFlipped ? gl::Cull::Front : gl::Cull::Back;
     gl::setDrawState({.depthTest = true,
                       .depthWrite = !blended,
+                      .stencil = view.masking.stencil,
+                      .stencilValue = view.masking.stencilValue,
+                      .clipDistances = clipsInVertexShader ? view.clip.count : 0,
                       .cull = material.isSeenFromBehind() ? gl::Cull::None : hidden,
                       .blendPremultiplied = blended});
     bindPart(program, scene, range.part, view.chain);
@@ -165,8 +172,13 @@ PrimaryPass::PrimaryPass(SurfacePass& surfaces)
 PinholeView makePinholeView(const scene::CameraFrame& camera, double nearPlane, const dvec2& jitterPx) {
   // gl_FragCoord counts from the lower left corner and points at pixel centres.
   const dvec2 offset = jitterPx - 0.5;
-  return {camera.eye, camera.rayDirection(offset.x, camera.heightPx + offset.y), camera.rayDirectionDx(),
-          -camera.rayDirectionDy(), makeClipFromWorld(camera, nearPlane, jitterPx)};
+  return {camera.eye,
+          camera.rayDirection(offset.x, camera.heightPx + offset.y),
+          camera.rayDirectionDx(),
+          -camera.rayDirectionDy(),
+          makeClipFromWorld(camera, nearPlane, jitterPx),
+          false,
+          {}};
 }
 
 void PrimaryPass::draw(const SceneBuffers& scene, const scene::CameraFrame& camera, double nearPlane,
@@ -175,13 +187,15 @@ void PrimaryPass::draw(const SceneBuffers& scene, const scene::CameraFrame& came
 }
 
 void PrimaryPass::draw(const SceneBuffers& scene, const PinholeView& pinhole, Level& target,
-                       std::uint32_t excludedReflector) {
+                       std::uint32_t excludedReflector, const std::vector<DrawRange>* opaque) {
   target.clear();
   SurfaceView view;
   view.clipFromDraw = pinhole.clipFromWorld;
   view.eye = view.drawEye = pinhole.eye;
+  view.windingFlipped = pinhole.windingFlipped;
+  view.clip = pinhole.clip;
   view.excludedReflector = excludedReflector;
-  sortedRanges_ = scene.opaqueRanges();
+  sortedRanges_ = opaque ? *opaque : scene.opaqueRanges();
   sortNearFirst(scene, pinhole.eye, sortedRanges_);
   surfaces_.draw(scene, scene.world(), sortedRanges_, view, target);
 

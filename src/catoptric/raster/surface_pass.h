@@ -14,15 +14,33 @@
 
 namespace catoptric::raster {
 
+/// Half spaces that keep what lies before all of them: dot(xyz, p) + w >= 0, world.
+struct ClipPlanes {
+  static constexpr int kMost = gl::kMostClipDistances;
+  std::array<vec4, kMost> planes{};
+  int count = 0;
+
+  void add(const vec4& plane) { planes[std::size_t(count++)] = plane; }
+  [[nodiscard]] std::span<const vec4> span() const { return {planes.data(), std::size_t(count)}; }
+};
+
+/// How fragments are kept within the pixels that show the last mirror; MirrorMask says.
+struct Masking {
+  bool testsIds = true;  ///< they look it up in the level before
+  gl::StencilRule stencil = gl::StencilRule::None;
+  std::uint8_t stencilValue = 0;
+};
+
 /// How points of draw space get to the screen.
 struct SurfaceView {
   dmat4 clipFromDraw{1.0};
   dvec3 eye{0};      ///< world (level 0)
   dvec3 drawEye{0};  ///< the eye in draw space
   bool windingFlipped = false;
-  const Chain* chain = nullptr;  ///< null: seen directly
-  const Level* parent = nullptr;
-  vec4 clipPlane{0.0f};  ///< world; zero = none
+  const Chain* chain = nullptr;   ///< null: seen directly
+  const Level* parent = nullptr;  ///< where the last view ray of each pixel starts; null: at `eye`
+  Masking masking;                ///< ids are tested only with `parent`
+  ClipPlanes clip;                ///< with `parent` at most one
   std::uint32_t excludedReflector = core::kNoId;
 };
 
@@ -38,13 +56,20 @@ class SurfacePass {
  private:
   /// A program is made for each set of textures that a material has (bits of SceneBuffers::textureBits()) and
   /// each set of these, when it is first used.
-  enum Feature : unsigned { kOverlay = 32, kMirror = 64, kSeen = 128, kParent = 256 };
+  enum Feature : unsigned {
+    kOverlay = 32,
+    kMirror = 64,
+    kSeen = 128,
+    kParent = 256,
+    kIds = 512,
+    kClip = 1024
+  };
 
   void drawRanges(const SceneBuffers& scene, const VertexStreams& streams, std::span<const DrawRange> ranges,
                   const SurfaceView& view, unsigned features);
   [[nodiscard]] gl::Program& findProgram(unsigned features);
 
-  std::array<std::unique_ptr<gl::Program>, 512> programs_;
+  std::array<std::unique_ptr<gl::Program>, 2048> programs_;
   std::vector<DrawRange> mirrors_, others_;
 };
 
@@ -69,6 +94,8 @@ struct PinholeView {
   dvec3 eye{0};
   dvec3 rayOrigin{0, 0, -1}, rayDx{0}, rayDy{0};
   dmat4 clipFromWorld{1.0};
+  bool windingFlipped = false;  ///< seen in an odd number of mirrors
+  ClipPlanes clip;
 };
 
 /// Level 0: environment and scene seen from a camera; also used for the faces of environment maps.
@@ -79,8 +106,9 @@ class PrimaryPass {
   void draw(const SceneBuffers& scene, const scene::CameraFrame& camera, double nearPlane,
             const dvec2& jitterPx, Level& target, std::uint32_t excludedReflector = core::kNoId);
   void geometryChanged() { blendedStreams_.reset(); }
+  /// `opaque`: which of the opaque ranges; null = all of them.
   void draw(const SceneBuffers& scene, const PinholeView& pinhole, Level& target,
-            std::uint32_t excludedReflector = core::kNoId);
+            std::uint32_t excludedReflector = core::kNoId, const std::vector<DrawRange>* opaque = nullptr);
 
  private:
   SurfacePass& surfaces_;

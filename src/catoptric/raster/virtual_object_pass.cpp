@@ -40,7 +40,7 @@ void VirtualObjectPass::drawSelected(FrameContext& frame, const SurfaceView& vie
 void clipAtLastMirror(const scene::Reflector& mirror, std::uint32_t index, const dvec3& mirrorBefore,
                       SurfaceView& view) {
   const double side = mirror.plane.signedDistance(mirrorBefore) > 0.0 ? 1.0 : -1.0;
-  view.clipPlane = vec4(vec3(side * mirror.plane.normal), float(side * mirror.plane.offset));
+  view.clip.add(vec4(vec3(side * mirror.plane.normal), float(side * mirror.plane.offset)));
   view.excludedReflector = index;
 }
 

@@ -152,6 +152,7 @@ void ReflectionMorphingMethod::drawObjects(raster::FrameContext& frame, const ra
   view.windingFlipped = (chain.level - chain.crossings) % 2 == 1;
   view.chain = &chain;
   view.parent = &parent;
+  view.masking = frame.masking;
   if (reflectors[chain.last].isPlanarMirror())
     raster::clipAtLastMirror(reflectors[chain.last], chain.last,
                              reflectors[chain.mirrors[chain.mirrors.size() - 2]].centre, view);

@@ -16,6 +16,7 @@
 #include "catoptric/core/image.h"
 #include "catoptric/core/seen.h"
 #include "catoptric/depth_reflection_map/zexel_options.h"
+#include "catoptric/raster/merge.h"
 #include "catoptric/scene/camera_frame.h"
 #include "catoptric/scene/environment.h"
 #include "catoptric/scene/scene.h"
@@ -27,10 +28,12 @@ namespace catoptric::renderer {
 enum class Method { Auto, None, Environment, Virtual, Morphing, Zexel, RayTrace };
 /// How the Virtual method finds reflection points on curved mirrors; Exact tests fragments instead.
 enum class Solver { Auto, Explosion, Layered, Refined, Exact, Analytic, Subdivision };
+using raster::Merge;
 
 /// Names as on the command line.
 [[nodiscard]] std::string_view methodName(Method method);
 [[nodiscard]] std::string_view solverName(Solver solver);
+[[nodiscard]] std::string_view mergeName(Merge merge);
 /// Whether FrameOptions::solver has a say in this method.
 [[nodiscard]] bool hasSolvers(Method method);
 
@@ -39,6 +42,8 @@ struct FrameOptions {
   Solver solver = Solver::Auto;
   int widthPx = 960, heightPx = 720;
   int bounces = 1;
+  Merge merge = Merge::Ids;  ///< how pictures in mirrors are kept within them
+  double textureScale = 1;   ///< Merge::Texture: resolution of the textures : the picture's, at most 1
   int samples = 1;           ///< per pixel, for radiance; what is seen is always sampled at the pixel centre
   double maxErrorPx = 0.5;   ///< aim of the tessellation of reflected objects
   bool boxCorrected = true;  ///< Environment: parallax-corrected by the box of the room; false: plain

@@ -48,6 +48,24 @@ std::string_view solverName(Solver solver) {
   return "?";
 }
 
+std::string_view mergeName(Merge merge) {
+  switch (merge) {
+    case Merge::Ids:
+      return "ids";
+    case Merge::Stencil:
+      return "stencil";
+    case Merge::Erase:
+      return "erase";
+    case Merge::Depth:
+      return "depth";
+    case Merge::Clip:
+      return "clip";
+    case Merge::Texture:
+      return "texture";
+  }
+  return "?";
+}
+
 namespace {
 
 MethodChoice chooseByShape(const scene::Reflector& reflector) {

@@ -9,20 +9,17 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "catoptric/core/error.h"
 #include "catoptric/core/log.h"
 #include "catoptric/core/parallel.h"
 #include "catoptric/core/sample_pattern.h"
 #include "catoptric/depth_reflection_map/reference_file.h"
-#include "catoptric/geometry/mesh_measures.h"
 #include "catoptric/reflection_morphing/baked_file.h"
+#include "catoptric/renderer/near_plane.h"
 
 namespace catoptric::renderer {
 namespace {
-
-constexpr std::uint32_t kMaxChains = 4096;  // ids have 16 bits for a chain
 
 double millisecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -75,26 +72,6 @@ void readFlipped(const gl::Framebuffer& framebuffer, int attachment, core::Image
 
 }  // namespace
 
-double chooseNearPlane(const scene::WorldGeometry& geometry, const scene::CameraFrame& camera) {
-  const double sceneRadius = geometry.bounds.isEmpty() ? 1.0 : std::max(geometry.bounds.radius(), 1e-6);
-  double nearest = sceneRadius;
-  for (std::size_t i = 0; i + 2 < geometry.indices.size(); i += 3) {
-    const auto corner = [&](std::size_t k) { return dvec3(geometry.positions[geometry.indices[i + k]]); };
-    const dvec3 a = corner(0), b = corner(1), c = corner(2), centre = (a + b + c) / 3.0;
-    const double reach =
-        std::sqrt(std::max({glm::dot(a - centre, a - centre), glm::dot(b - centre, b - centre),
-                            glm::dot(c - centre, c - centre)}));
-    if (glm::length(camera.eye - centre) - reach >= nearest) continue;  // its bounding sphere is too far away
-    nearest = std::min(nearest, geometry::computeDistanceToTriangle(camera.eye, a, b, c));
-  }
-  // The corner of the picture is the farthest off axis: a point at distance d lies at least d cos beyond the
-  // eye.
-  const double aspect = double(camera.widthPx) / camera.heightPx;
-  const double cosine =
-      1.0 / std::sqrt(1.0 + camera.tanHalfFovY * camera.tanHalfFovY * (1.0 + aspect * aspect));
-  return std::max(0.9 * cosine * nearest, 2e-4 * sceneRadius);
-}
-
 double RasterFrame::findNearPlane(const scene::CameraFrame& camera) {
   const scene::CameraFrame& last = nearPlaneCamera_;
   if (nearPlane_ == 0 || last.eye != camera.eye || last.tanHalfFovY != camera.tanHalfFovY ||
@@ -112,6 +89,7 @@ RasterFrame::RasterFrame(gl::Context& context, const scene::Scene& scene,
       geometry_(geometry),
       surroundings_(environment),
       scene_(scene, geometry, environment),
+      chains_(geometry),
       primary_(surfaces_),
       virtual_(virtual_object::Solver::Refined, hits_),
       exact_(hits_) {
@@ -131,59 +109,15 @@ void RasterFrame::updateGeometry(std::span<const std::uint32_t> movedParts) {
   morphing_.partsMoved(geometry_, movedParts);
 }
 
-void RasterFrame::prepareLevels(int count, int widthPx, int heightPx) {
-  if (!levels_.empty() && (levels_[0]->widthPx != widthPx || levels_[0]->heightPx != heightPx))
-    levels_.clear();
-  while (int(levels_.size()) < count) levels_.push_back(std::make_unique<raster::Level>(widthPx, heightPx));
-}
-
-std::vector<raster::Chain> RasterFrame::findChains(const raster::Level& level,
-                                                   const std::vector<raster::Chain>& parents, int bounces,
-                                                   bool& isComplete) {
-  isComplete = true;
-  const int width = level.widthPx, height = level.heightPx;
-  idsPixels_.resize(std::size_t(width) * std::size_t(height));
-  level.surfaces.readPixels(3, std::span<uvec2>(idsPixels_));
-  struct Extent {
-    int x0 = std::numeric_limits<int>::max(), y0 = std::numeric_limits<int>::max(), x1 = -1, y1 = -1;
-    std::uint64_t pixels = 0;
+void RasterFrame::prepareLevels(int count, const FrameOptions& options) {
+  const int widthPx = options.widthPx, heightPx = options.heightPx;
+  const bool withStencil = options.merge == Merge::Stencil || options.merge == Merge::Erase;
+  const auto isUsable = [&](const std::unique_ptr<raster::Level>& level) {
+    return level->widthPx == widthPx && level->heightPx == heightPx && level->hasStencil == withStencil;
   };
-  std::map<std::uint32_t, Extent> extents;  // by ids.g
-  std::uint32_t lastWord = 0;
-  Extent* lastExtent = nullptr;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const std::uint32_t word = idsPixels_[std::size_t(y) * std::size_t(width) + std::size_t(x)].y;
-      if ((word & 0xffffu) == 0) continue;
-      if (!lastExtent || word != lastWord) {
-        lastExtent = &extents[word];
-        lastWord = word;
-      }
-      lastExtent->x0 = std::min(lastExtent->x0, x);
-      lastExtent->x1 = std::max(lastExtent->x1, x);
-      lastExtent->y0 = std::min(lastExtent->y0, y);
-      lastExtent->y1 = std::max(lastExtent->y1, y);
-      ++lastExtent->pixels;
-    }
-  std::vector<raster::Chain> chains;
-  for (const auto& [word, extent] : extents) {
-    const auto parent = std::find_if(parents.begin(), parents.end(),
-                                     [id = word >> 16](const raster::Chain& c) { return c.id == id; });
-    if (parent == parents.end() || lastChain_ + 1 >= kMaxChains) {
-      isComplete = false;  // the rest shows the environment
-      continue;
-    }
-    raster::Chain chain = raster::extendChain(*parent, (word & 0xffffu) - 1u, geometry_);
-    if (chain.crossings > scene::kMostCrossings || chain.level - chain.crossings > bounces) {
-      isComplete = false;
-      continue;
-    }
-    chain.id = ++lastChain_;
-    chain.bounds = {extent.x0, extent.y0, extent.x1 - extent.x0 + 1, extent.y1 - extent.y0 + 1};
-    chain.pixels = extent.pixels;
-    chains.push_back(chain);
-  }
-  return chains;
+  if (!std::all_of(levels_.begin(), levels_.end(), isUsable)) levels_.clear();
+  while (int(levels_.size()) < count)
+    levels_.push_back(std::make_unique<raster::Level>(widthPx, heightPx, withStencil));
 }
 
 /// Hybrid reflectors (2004, section 7): large parts are morphed, small ones get environment maps, unless the
@@ -222,6 +156,14 @@ raster::ReflectionMethod* RasterFrame::pickMethod(const raster::Chain& chain, co
   return nullptr;
 }
 
+void RasterFrame::renderMirror(raster::ReflectionMethod& method, raster::FrameContext& context,
+                               const raster::Chain& chain, const raster::Level& parent,
+                               raster::Level& target) {
+  context.masking = mask_.begin(context.merge, chain, parent, target);
+  method.render(context, chain, parent, target);
+  mask_.end(chain, parent, target);
+}
+
 void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOptions& options,
                                const dvec2& jitterPx, Frame& frame) {
   const auto start = std::chrono::steady_clock::now();
@@ -231,9 +173,17 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   const int mostLevels =
       options.method == Method::None ? 0 : options.bounces + (hasRefractors ? scene::kMostCrossings : 0);
   raster::MethodCounters counters;
-  raster::FrameContext context{
-      scene_,   camera, surfaces_, primary_, compose_, findNearPlane(camera), jitterPx, options.maxErrorPx,
-      counters, {}};
+  raster::FrameContext context{.scene = scene_,
+                               .camera = camera,
+                               .surfaces = surfaces_,
+                               .primary = primary_,
+                               .compose = compose_,
+                               .nearPlane = findNearPlane(camera),
+                               .jitterPx = jitterPx,
+                               .maxErrorPx = options.maxErrorPx,
+                               .merge = options.merge,
+                               .textureScale = options.textureScale,
+                               .counters = counters};
 
   // 1
   levels_[0]->withSeen = options.withSeen;
@@ -241,7 +191,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   context_.finish();
   frame.timings.primaryMs += millisecondsSince(start);
 
-  lastChain_ = 0;
+  chains_.beginFrame();
   hits_.beginFrame();
   for (raster::ReflectionMethod* method : methods_)
     if (method != &morphing_ || options.method == Method::Morphing) method->prepare(context);
@@ -252,11 +202,11 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
     // 2
     bool isComplete = false;
     const std::vector<raster::Chain> chains =
-        findChains(*levels_[std::size_t(level)], parents, options.bounces, isComplete);
+        chains_.find(*levels_[std::size_t(level)], parents, options.bounces, isComplete);
     if (level == 0) visibleReflectors = chains.size();
     if (chains.empty()) break;
-    context.parentIds = idsPixels_;
-    prepareLevels(level + 2, options.widthPx, options.heightPx);
+    context.parentIds = chains_.ids();
+    prepareLevels(level + 2, options);
     // 3, 4
     raster::Level& target = *levels_[std::size_t(level) + 1];
     target.clear(findUnion(chains));
@@ -264,7 +214,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
     target.withSeen = options.withSeen;
     for (const raster::Chain& chain : chains)
       if (raster::ReflectionMethod* method = pickMethod(chain, options))
-        method->render(context, chain, *levels_[std::size_t(level)], target);
+        renderMirror(*method, context, chain, *levels_[std::size_t(level)], target);
       else
         target.isComplete = false;
     ++levelCount;
@@ -354,7 +304,7 @@ void RasterFrame::readSeen(const raster::Level& level, Frame& frame) const {
 Frame RasterFrame::render(const scene::CameraFrame& camera, const FrameOptions& options) {
   Frame frame;
   const int samples = std::max(1, options.samples);
-  prepareLevels(1, options.widthPx, options.heightPx);
+  prepareLevels(1, options);
   virtual_.setSolver(virtualObjectSolver(options.solver));
   if (options.method == Method::Morphing) prepareMorphing(camera.eye, options);
   zexel_.setOptions(options.zexel);

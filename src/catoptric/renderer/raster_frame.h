@@ -11,6 +11,7 @@
 #include "catoptric/gl/context.h"
 #include "catoptric/planar_mirror/planar_mirror_method.h"
 #include "catoptric/reflection_morphing/reflection_morphing_method.h"
+#include "catoptric/renderer/chain_finder.h"
 #include "catoptric/renderer/frame.h"
 #include "catoptric/virtual_object/exact/exact_method.h"
 #include "catoptric/virtual_object/virtual_object_method.h"
@@ -29,14 +30,12 @@ class RasterFrame {
   void saveReferenceImages() { zexel_.saveCacheFile(); }
 
  private:
-  void prepareLevels(int count, int widthPx, int heightPx);
+  void prepareLevels(int count, const FrameOptions& options);
   void renderSample(const scene::CameraFrame& camera, const FrameOptions& options, const dvec2& jitterPx,
                     Frame& frame);
-  /// Chains of at most `bounces` mirrors and scene::kMostCrossings refractors that those visible in a level
-  /// begin; from the level's ids. `isComplete`: there are no more.
-  [[nodiscard]] std::vector<raster::Chain> findChains(const raster::Level& level,
-                                                      const std::vector<raster::Chain>& parents, int bounces,
-                                                      bool& isComplete);
+  /// What one mirror shows, kept within its pixels.
+  void renderMirror(raster::ReflectionMethod& method, raster::FrameContext& context,
+                    const raster::Chain& chain, const raster::Level& parent, raster::Level& target);
   [[nodiscard]] bool isMapped(const raster::Chain& chain, const FrameOptions& options) const;
   [[nodiscard]] raster::ReflectionMethod* pickMethod(const raster::Chain& chain, const FrameOptions& options);
   /// Opens the baked file, or makes ready to bake where the eye is.
@@ -52,9 +51,11 @@ class RasterFrame {
   const scene::WorldGeometry& geometry_;
   const scene::Environment& surroundings_;
   raster::SceneBuffers scene_;
+  ChainFinder chains_;
   raster::SurfacePass surfaces_;
   raster::PrimaryPass primary_;
   raster::ComposePass compose_;
+  raster::MirrorMask mask_;
   planar_mirror::PlanarMirrorMethod planar_;
   virtual_object::HitShading hits_;
   virtual_object::VirtualObjectMethod virtual_;
@@ -73,12 +74,6 @@ class RasterFrame {
   double nearPlane_ = 0;  ///< of the last camera; 0 = not known
   scene::CameraFrame nearPlaneCamera_;
   std::vector<std::unique_ptr<raster::Level>> levels_;
-  std::vector<uvec2> idsPixels_;
-  std::uint32_t lastChain_ = 0;
 };
-
-/// Near plane for a view: as far away as nothing is cut off, since depth precision goes with it; within sane
-/// bounds. Visits every triangle.
-[[nodiscard]] double chooseNearPlane(const scene::WorldGeometry& geometry, const scene::CameraFrame& camera);
 
 }  // namespace catoptric::renderer

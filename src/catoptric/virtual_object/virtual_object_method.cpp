@@ -107,6 +107,7 @@ void VirtualObjectMethod::drawObjects(raster::FrameContext& frame, const raster:
   view.windingFlipped = chain.level % 2 == 1;
   view.chain = &chain;
   view.parent = &parent;
+  view.masking = frame.masking;
   const auto& reflectors = frame.scene.geometry().reflectors;
   if (chain.last != *chain.curved)
     raster::clipAtLastMirror(reflectors[chain.last], chain.last, reflectors[*chain.curved].centre, view);
