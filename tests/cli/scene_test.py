@@ -9,7 +9,7 @@ import support
 
 BUILT_IN = {"four-spheres", "cylinder", "fender", "polyhedra-and-sphere", "checker-box", "hall-of-mirrors",
             "drivers-view", "concave-bowl", "mask", "mixed", "tv", "cone", "vase", "wavy-wall",
-            "lenses", "columns", "teapot", "facing-mirrors"}
+            "lenses", "columns", "teapot", "facing-mirrors", "reflector-sweep", "object-sweep"}
 
 
 class Info(support.CommandTest):

@@ -19,7 +19,7 @@ struct Row {
 };
 
 /// Adding a scene = one file in built_in/ and one row here.
-constexpr std::array<Row, 19> kRows = {{
+constexpr std::array<Row, 21> kRows = {{
     {{"four-spheres", "four chrome spheres on a table in a furnished room (1998, figures 15 and 16)"},
      built_in::makeFourSpheres},
     {{"cylinder", "an upright chrome cylinder on a patterned floor (1998, figure 12)"},
@@ -56,6 +56,12 @@ constexpr std::array<Row, 19> kRows = {{
      built_in::makeFacingMirrors},
     {{"furnished-room", "about 190,000 polygons and two large flat mirrors (Bastos, figure 7)"},
      built_in::makeFurnishedRoom},
+    {{"reflector-sweep", "balls of 32, 128, 512 and 2048 triangles (1998, figure 13)"},
+     built_in::makeReflectorSweep},
+    {{"object-sweep",
+      "boards of 1, 9, 49 and 225 cells before balls of 512 triangles (1998, figure 14; with --max-error "
+      "100)"},
+     built_in::makeObjectSweep},
 }};
 
 /// Levenshtein distance.

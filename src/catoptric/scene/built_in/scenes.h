@@ -25,5 +25,7 @@ namespace catoptric::scene::built_in {
 [[nodiscard]] Scene makeTeapotScene();
 [[nodiscard]] Scene makeFacingMirrors();
 [[nodiscard]] Scene makeFurnishedRoom();
+[[nodiscard]] Scene makeReflectorSweep();
+[[nodiscard]] Scene makeObjectSweep();
 
 }  // namespace catoptric::scene::built_in
