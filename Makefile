@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Thin: scripts/ and the CMake presets do the work. Two commands do all set-up: `make demo` and `make test`.
 .DEFAULT_GOAL := help
-.PHONY: help demo test build setup setup-checks format check sanitize bench readme-pictures readme-figures package clean
+.PHONY: help demo test build setup setup-checks format check sanitize bench figures readme-pictures readme-figures package clean
 
 help: ## say what can be made
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1|/p' $(MAKEFILE_LIST) | while IFS='|' read -r name what; do \
@@ -36,6 +36,10 @@ sanitize: setup ## build the tests with the address and undefined-behaviour sani
 bench: setup ## run the benchmarks of the hot paths
 	@scripts/build.sh release
 	@scripts/bench.sh
+
+figures: setup ## make every figure of the papers again, beside the truth, into docs/figures
+	@scripts/build.sh release catoptric_app
+	@python3 -B scripts/figures build/release/catoptric docs/figures
 
 readme-pictures: setup ## render the pictures of README.md into docs/images
 	@scripts/build.sh release catoptric_app
