@@ -31,9 +31,12 @@ class Draw(support.CommandTest):
             self.assertEqual(self.draw("checker-box", what, "--zexel-size", "64", "--zexel-hemisphere", "16")[:2], (64, 48))
 
     def test_exposures_are_the_pixels_that_the_method_counts_as_uncovered(self):
-        facts = self.draw("checker-box", "exposures", "--zexel-splat", "point", "--zexel-references", "1")[2]
-        self.assertGreater(facts["exposures"], 0)
-        self.assertEqual(facts["exposures"], facts["uncovered_pixels"])
+        # 512 zexels on few pixels: a 3x3 splat reaches many zexels far, and must still show its zexel.
+        for splat in ("point", "square"):
+            facts = self.draw("checker-box", "exposures", "--zexel-splat", splat, "--zexel-references", "1")[2]
+            self.assertEqual(facts["exposures"], facts["uncovered_pixels"], splat)
+            self.assertGreater(facts["zexel_pixels"], 10 * facts["exposures"])
+            self.assertTrue(facts["exposures"] > 0 or splat != "point")
 
     def test_one_object_alone(self):
         whole, cube = (self.draw("columns", "virtual-object", *words)[2]["virtual_triangles"] for words in ((), ("--object", "cube")))
