@@ -52,15 +52,24 @@ dvec3 choosePoint(const Drawing& drawing, const ReflectorMesh& mesh, const sketc
   return mesh.centre() + mesh.bodyRadius() * (-1.3 * section.right + 1.5 * section.up);
 }
 
+/// The far sphere is drawn round what the picture shows; round the whole scene it would lie outside of it.
+double findShownRadius(const sketch::Section& section) {
+  return 0.45 * section.width * section.heightPx / section.widthPx;
+}
+
+/// Without rays.
+sketch::Sketch sketchOutline(const ReflectorMesh& mesh, const dvec3& eye, const sketch::Section& section) {
+  sketch::Sketch sketch = sketch::sketchProfile(mesh, eye, section, 0);
+  std::erase_if(sketch.lines, [](const sketch::Line& line) { return line.colour != sketch::kBlack; });
+  return sketch;
+}
+
 core::ImageRgba8 drawLookUps(Drawing& drawing, bool withFarMap) {
   const ReflectorMesh mesh(drawing.world(), findReflector(drawing, false));
   const sketch::Section section = makeSection(drawing, mesh);
-  // The far sphere is drawn round what the picture shows; round the whole scene it would lie outside of it.
-  const double farRadius = 0.45 * section.width * section.heightPx / section.widthPx;
-  const VirtualObjectSolver solver(mesh, drawing.camera.eye, farRadius);
+  const VirtualObjectSolver solver(mesh, drawing.camera.eye, findShownRadius(section));
   const dvec3 point = choosePoint(drawing, mesh, section);
-  sketch::Sketch sketch = sketch::sketchProfile(mesh, drawing.camera.eye, section, 0);
-  std::erase_if(sketch.lines, [](const sketch::Line& line) { return line.colour != sketch::kBlack; });
+  sketch::Sketch sketch = sketchOutline(mesh, drawing.camera.eye, section);
   sketch.add(sketch::sketchLookUp(solver, point, section, withFarMap));
   core::ImageRgba8 picture(section.widthPx, section.heightPx, glm::u8vec4(255));
   return drawInSection(section, std::move(sketch), std::move(picture));
@@ -98,16 +107,19 @@ core::ImageRgba8 drawSubdivision(Drawing& drawing) {
       sketch::sketchProfile(maps.mesh, drawing.camera.eye, section, drawing.options.count);
   for (const dvec3& point : drawing.options.points)
     sketch.add(sketch::sketchReflectedPoint(maps.solver, section.project(point)));
-  return drawInSection(section, std::move(sketch), sketch::drawCells(maps.mesh, drawing.camera.eye, section));
+  sketch::Section asked = section;  // a cell a final pixel: asking is what takes time
+  asked.widthPx /= 2, asked.heightPx /= 2;
+  const core::ImageRgba8 cells = sketch::drawCells(maps.mesh, drawing.camera.eye, asked);
+  return drawInSection(section, std::move(sketch), sketch::enlarge(cells, 2));
 }
 
 core::ImageRgba8 drawMapping(Drawing& drawing) {
   constexpr double kShare = 0.72;  // which point of the front
-  const MirrorMaps maps(drawing, findReflector(drawing, false));
-  const sketch::Section section = makeSection(drawing, maps.mesh);
-  sketch::Sketch sketch = sketch::sketchProfile(maps.mesh, drawing.camera.eye, section, 0);
-  std::erase_if(sketch.lines, [](const sketch::Line& line) { return line.colour != sketch::kBlack; });
-  sketch.add(sketch::sketchMapping(maps.mesh, drawing.camera.eye, maps.solver.nearMap(), section, kShare));
+  const ReflectorMesh mesh(drawing.world(), findReflector(drawing, false));
+  const sketch::Section section = makeSection(drawing, mesh);
+  const VirtualObjectSolver solver(mesh, drawing.camera.eye, findShownRadius(section));
+  sketch::Sketch sketch = sketchOutline(mesh, drawing.camera.eye, section);
+  sketch.add(sketch::sketchMapping(mesh, drawing.camera.eye, solver.farMap(), section, kShare));
   core::ImageRgba8 picture(section.widthPx, section.heightPx, glm::u8vec4(255));
   return drawInSection(section, std::move(sketch), std::move(picture));
 }

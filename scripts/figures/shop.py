@@ -3,8 +3,10 @@
 import json
 import os
 import shutil
+import struct
 import subprocess
 import sys
+import zlib
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import report_pictures  # noqa: E402  (in the folder above)
@@ -15,6 +17,39 @@ NAMES = {"environment": "environment map, box-corrected", "environment-plain": "
          "virtual-refined": "virtual objects", "virtual-exact": "virtual objects, each pixel tested",
          "virtual-analytic": "virtual objects, closed form", "morphing": "reflection morphing", "zexel": "zexels",
          "none": "no reflections", "raytrace": "ray-traced truth"}
+
+
+def decode_png(data):
+    """Bytes of an 8-bit RGB or RGBA PNG that is not interlaced, as the command writes them; alpha is left out."""
+    at, packed = 8, b""
+    while at < len(data):
+        length, kind = struct.unpack_from(">I4s", data, at)
+        if kind == b"IHDR":
+            width, height, _, color = struct.unpack_from(">IIBB", data, at + 8)
+        elif kind == b"IDAT":
+            packed += data[at + 8:at + 8 + length]
+        at += 12 + length
+    raw, step = zlib.decompress(packed), 4 if color == 6 else 3
+    stride, before, rows = width * step, bytearray(width * step), []
+    for y in range(height):
+        kind, row = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        for x in range(stride if kind else 0):
+            left, above, corner = (row[x - step], before[x], before[x - step]) if x >= step else (0, before[x], 0)
+            if kind == 4:
+                guess = left + above - corner
+                near = min((abs(guess - left), 0, left), (abs(guess - above), 1, above), (abs(guess - corner), 2, corner))[2]
+            else:
+                near = (left, above, (left + above) // 2)[kind - 1]
+            row[x] = (row[x] + near) & 255
+        rows.append(row)
+        before = row
+    whole = b"".join(rows)
+    return whole if step == 3 else bytes(value for i, value in enumerate(whole) if i % 4 != 3)
+
+
+def mean_difference(a, b):
+    """Of two pictures' bytes."""
+    return sum(map(abs, map(int.__sub__, a, b))) / len(a)
 
 
 class Comparison:
@@ -58,6 +93,7 @@ class Shop:
 
     def __init__(self, command, out, work, size):
         self.command, self.out, self.work, self.size = command, out, work, size
+        self.facts = {}
         self.said = []  # command lines since the last section
         os.makedirs(os.path.join(out, "images"), exist_ok=True)
 
@@ -91,6 +127,23 @@ class Shop:
         with open(os.path.join(self.work, target), "rb") as file:
             kept = self.keep(target, file.read())
         return kept, self.read_json("frame.json")
+
+    def draw(self, name, scene, what, *options, size=None):
+        """A structure, images/NAME.jpg; what --json says of it is kept in `facts`."""
+        target = f"{name}.jpg"
+        self.run("draw", scene, "-o", target, "--show", what, "--size", size or self.size, "--json", "facts.json", *options)
+        self.facts = self.read_json("facts.json")["facts"]
+        with open(self.path(target), "rb") as file:
+            return self.keep(target, file.read())
+
+    def pixels(self, scene, *options, size=None):
+        """Bytes of the picture's pixels, red, green, blue; not shown anywhere."""
+        self.run("render", scene, "-o", "pixels.png", "--size", size or self.size, *options)
+        with open(self.path("pixels.png"), "rb") as file:
+            return decode_png(file.read())
+
+    def path(self, name):
+        return os.path.join(self.work, name)
 
     def read_json(self, name):
         with open(os.path.join(self.work, name), encoding="utf-8") as file:

@@ -64,6 +64,13 @@ core::ImageRgba8 halve(const core::ImageRgba8& picture) {
   return half;
 }
 
+core::ImageRgba8 enlarge(const core::ImageRgba8& picture, int factor) {
+  core::ImageRgba8 large(factor * picture.width(), factor * picture.height());
+  for (int y = 0; y < large.height(); ++y)
+    for (int x = 0; x < large.width(); ++x) large.at(x, y) = picture.at(x / factor, y / factor);
+  return large;
+}
+
 void fade(core::ImageRgba8& picture, float share) {
   for (glm::u8vec4& pixel : picture.pixels())
     pixel = glm::u8vec4(glm::mix(vec4(pixel), vec4(255), share) + 0.5f);

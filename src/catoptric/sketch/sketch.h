@@ -80,6 +80,9 @@ void drawSketch(const Sketch& sketch, const scene::CameraFrame& camera, core::Im
 /// Half the size: each pixel the mean of four. A picture drawn at twice its size comes out smooth.
 [[nodiscard]] core::ImageRgba8 halve(const core::ImageRgba8& picture);
 
+/// Each pixel `factor` by `factor` times.
+[[nodiscard]] core::ImageRgba8 enlarge(const core::ImageRgba8& picture, int factor);
+
 /// Towards white by `share`, so that a sketch stands out.
 void fade(core::ImageRgba8& picture, float share);
 
