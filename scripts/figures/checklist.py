@@ -21,7 +21,7 @@ def number_figures(*modules):
 
 
 WANTED = {
-    "1998": "4 5 9 10 11 12 13 14 15 16 17 18 19 20".split(),
+    "1998": "4 5 9 10 11 12 13 14 15 16 17 18 19 20 scaling".split(),
     "1999": "61 62 63 64".split(),
     "2004": "1 3 5 6 7 8 numbers".split(),
     "bastos": "2 3 4 5 6 7 rates".split(),

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Ofek & Rappoport 1998, figures 9, 12 and 15 to 20: what their reflections look like, and how long they take."""
+import charts
 from page import Section, milliseconds, px, share
 
 PUBLISHED, OURS = "virtual-explosion", "virtual-refined"
@@ -143,4 +144,20 @@ def figure_20(shop):
     section.claim("interactive, one frame a second or more:", rate >= 1, f"{rate:.1f} frames a second.")
     claim_right(section, comparison, "flat facets exactly, the sphere beside them:")
     claim_better_than_environment(section, comparison)
+    return section
+
+
+def figure_scaling(shop):
+    section = Section("Time against resolution (section 8)", "\"Our method scales much better than ray tracing to larger image resolutions, while ray tracing scales "
+                      "better with scene depth complexity.\"")
+    sizes = ("320x240", "640x480", "960x720", "1280x960")
+    comparison = shop.compare("1998-scaling", "four-spheres", (PUBLISHED, OURS), "--sizes", ",".join(sizes))
+    names = {PUBLISHED: "as published", OURS: "virtual objects", "raytrace": "ray tracer"}
+    times = {method: [(s["width"] * s["height"] / 1e6, s["median_ms"]) for s in comparison[method]["sizes"]] for method in names}
+    svg = charts.lines({names[method]: points for method, points in times.items()}, "megapixels", "frame, ms")
+    section.strip([("frames of four-spheres", shop.keep("1998-scaling.svg", svg))])
+    section.numbers(["", *sizes], [[names[m], *(milliseconds(ms) for _, ms in points)] for m, points in times.items()])
+    growth = {method: points[-1][1] / points[0][1] for method, points in times.items()}
+    section.claim("scales better than ray tracing, from the smallest to the largest picture:", growth[OURS] < growth["raytrace"],
+                  f"sixteen times the pixels take {growth[OURS]:.1f} times as long, {growth[PUBLISHED]:.1f} as published, {growth['raytrace']:.1f} by rays.")
     return section
