@@ -4,6 +4,7 @@ figure is found out."""
 import bastos_stuerzlinger_1998
 import blythe_1999
 import martin_popescu_2004
+import mcreynolds_blythe_2005
 import ofek_rappoport_1998_results
 import ofek_rappoport_1998_structures
 
@@ -24,6 +25,7 @@ WANTED = {
     "1998": "4 5 9 10 11 12 13 14 15 16 17 18 19 20 scaling".split(),
     "1999": "61 62 63 64".split(),
     "2004": "1 3 5 6 7 8 numbers".split(),
+    "2005": "17_3 17_4 masking".split(),
     "bastos": "2 3 4 5 6 7 rates".split(),
 }
 
@@ -38,4 +40,6 @@ PAPERS = (
           "David Blythe, SIGGRAPH 99 course notes on advanced graphics programming with OpenGL.", number_figures(blythe_1999)),
     Paper("2004", "2004-martin-popescu.md", "2004: Reflection morphing",
           "Andrew Martin and Voicu Popescu, Purdue University, CSD TR 04-015.", number_figures(martin_popescu_2004)),
+    Paper("2005", "2005-mcreynolds-blythe.md", "2005: Reflections, section 17.1",
+          "Tom McReynolds and David Blythe, Advanced Graphics Programming Using OpenGL.", number_figures(mcreynolds_blythe_2005)),
 )

@@ -99,6 +99,9 @@ def figure_13(shop):
         row += [f"{value:.2f}" for value in off[row[0]]]
     section.numbers(["triangles", "median px as published", "median px, virtual objects", "mean difference from the truth with 8192, as published (of 255)",
                      "the same, virtual objects"], rows)
+    together = shop.compare("1998-13-together", "reflector-sweep", ("virtual-explosion", "virtual-refined"))
+    section.strip([together.picture("virtual-explosion", "the four in one scene, as published"), together.picture("virtual-refined"),
+                   together.picture("raytrace"), together.error("virtual-explosion", "error map as published")])
     section.text("Displacements are against rays in the same triangles, differences against rays in the finest ball: the first says what the method adds, the "
                  "second what the facets cost as well.")
     for k, name in enumerate(("as published", "by virtual objects")):
@@ -121,6 +124,9 @@ def figure_14(shop):
         rows.append([f"{cuts} x {cuts}", px(comparison.objects("virtual-explosion", "median_px")), px(first[cuts]),
                      share(comparison.objects("virtual-layered", "share_le_1px"))])
     section.strip([*pictures, comparison.picture("raytrace")])
+    together = shop.compare("1998-14-together", "object-sweep", ("virtual-explosion", "virtual-layered"), "--max-error", "100")
+    section.strip([together.picture("virtual-explosion", "1, 9, 49 and 225 cells, as published"), together.picture("virtual-layered"),
+                   together.picture("raytrace"), together.error("virtual-layered", "error map of layered maps")])
     section.numbers(["object cut into", "median px as published", "median px, layered maps", "within 1 px, layered maps"], rows)
     section.text("Drawn with layered explosion maps: `refined` meets each pixel's ray with the real triangle, so that straight virtual edges do not show in it, "
                  "and the error of the method as published hides that of the cutting.")
