@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Thin: scripts/ and the CMake presets do the work. Two commands do all set-up: `make demo` and `make test`.
 .DEFAULT_GOAL := help
-.PHONY: help demo test build setup setup-checks format check sanitize bench readme-pictures readme-figures package clean
+.PHONY: help demo test build setup setup-checks format check sanitize bench figures readme-figures package clean
 
 help: ## say what can be made
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1|/p' $(MAKEFILE_LIST) | while IFS='|' read -r name what; do \
@@ -37,11 +37,12 @@ bench: setup ## run the benchmarks of the hot paths
 	@scripts/build.sh release
 	@scripts/bench.sh
 
-readme-pictures: setup ## render the pictures of README.md into docs/images
+figures: setup ## make every figure of the papers again, beside the truth, into docs/figures
 	@scripts/build.sh release catoptric_app
-	@scripts/readme_pictures.sh
+	@python3 -B scripts/figures build/release/catoptric docs/figures
 
-readme-figures: demo ## put the figures of `make demo` into README.md
+readme-figures: demo ## put pictures and figures of reports of `catoptric compare` into README.md
+	@python3 -B scripts/readme_pictures.py build/release/catoptric
 	@python3 scripts/readme_table.py --update README.md out/demo/report.json out/demo/*/report.json
 
 package: setup-checks ## make the Debian packages in build/release

@@ -40,9 +40,9 @@ std::vector<std::string> withViewCommand(std::vector<std::string> line) {
 }
 
 int runCommand(const std::vector<std::string>& line) {
-  const std::vector<Command> commands{makeInfoCommand(),  makeRenderCommand(), makeCompareCommand(),
-                                      makeBenchCommand(), makeBakeCommand(),   makeScenesCommand(),
-                                      makeViewCommand()};
+  const std::vector<Command> commands{makeInfoCommand(),   makeRenderCommand(), makeCompareCommand(),
+                                      makeBenchCommand(),  makeBakeCommand(),   makeDrawCommand(),
+                                      makeScenesCommand(), makeViewCommand()};
   if (line.empty()) {
     setVerbosity(Verbosity::Normal);
     say(makeProgramHelp(commands));

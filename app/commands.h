@@ -15,6 +15,7 @@ namespace catoptric::app {
 [[nodiscard]] bool isBakedFile(const std::string& path);
 /// What info says of it: printed, and as a document.
 void describeBakedFile(const std::string& path, const std::string& jsonFile);
+[[nodiscard]] Command makeDrawCommand();
 [[nodiscard]] Command makeScenesCommand();
 [[nodiscard]] Command makeViewCommand();
 

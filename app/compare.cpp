@@ -28,6 +28,7 @@ struct Options {
   std::string folder;
   std::vector<MethodVariant> variants = defaultVariants();
   int repeats = 3;
+  std::vector<ivec2> sizes;
   bool allCameras = false;
   Limits limits;
   SceneOptions scene;
@@ -65,9 +66,13 @@ void compareScene(const std::string& source, const Options& options, const std::
   const auto cameras = chooseCameras(*loaded, options);
   for (const scene::Camera& camera : cameras) {
     const std::string viewName = cameras.size() > 1 ? loaded->name + "-" + camera.name : loaded->name;
-    ComparisonOptions view{options.picture.frame, options.picture.exposure,
-                           options.variants,      options.repeats,
-                           options.folder,        makeViewFolder(viewName, takenFolders)};
+    ComparisonOptions view{options.picture.frame,
+                           options.picture.exposure,
+                           options.variants,
+                           options.repeats,
+                           options.sizes,
+                           options.folder,
+                           makeViewFolder(viewName, takenFolders)};
     core::Progress progress(viewName, countSteps(view));
     comparisons.push_back(compareView(*loaded, renderer, camera, view, progress));
   }
@@ -155,6 +160,11 @@ void declare(Arguments& arguments, const std::shared_ptr<Options>& options) {
                    [options](const std::string& text) { options->variants = parseMethodList(text); });
   arguments.option("--repeat", "N", "Frames of each method that are timed; default 3",
                    setInteger("--repeat", options->repeats, 1, kMostRepeats));
+  arguments.option("--sizes", "WxH,WxH", "Also times the methods at these sizes: time against resolution",
+                   [options](const std::string& text) {
+                     for (const std::string& size : splitList(text))
+                       options->sizes.push_back(parseSize("--sizes", size));
+                   });
   arguments.flag("--all-cameras", "Compare from each camera of the scene", options->allCameras);
   declareBaked(arguments, options->picture.frame);
   declareLimits(arguments, options->limits);

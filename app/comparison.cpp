@@ -40,6 +40,7 @@ class ViewComparer {
                       .mirrors = {},
                       .primary = {},
                       .times = {},
+                      .sizes = {},
                       .files = {},
                       .embedded = {}};
     const core::ImageRgba8 picture = core::toneMap(frame.radiance, options_.exposure);
@@ -119,8 +120,25 @@ std::vector<std::string> makeCells(const Comparison& comparison, const Compariso
 
 }  // namespace
 
+namespace {
+
+/// Each size by itself: warm-up, then in turn.
+void timeSizes(renderer::Renderer& renderer, const scene::Camera& camera, const ComparisonOptions& options,
+               const std::vector<MethodVariant>& variants, core::Progress& progress, Comparison& comparison) {
+  for (const ivec2 size : options.sizes) {
+    progress.describe(fmt::format("{}: timing at {}x{}", comparison.sceneName, size.x, size.y));
+    renderer::FrameOptions frame = options.frame;
+    frame.widthPx = size.x, frame.heightPx = size.y;
+    static_cast<void>(timeInTurn(renderer, camera, frame, variants, 1, progress));
+    const auto times = timeInTurn(renderer, camera, frame, variants, options.repeats, progress);
+    for (std::size_t i = 0; i < times.size(); ++i) comparison.rows[i].sizes.push_back({size, times[i]});
+  }
+}
+
+}  // namespace
+
 std::size_t countSteps(const ComparisonOptions& options) {
-  return (options.variants.size() + 1) * std::size_t(options.repeats + 1);
+  return (options.variants.size() + 1) * std::size_t(options.repeats + 1) * (options.sizes.size() + 1);
 }
 
 Comparison compareView(const LoadedScene& loaded, renderer::Renderer& renderer, const scene::Camera& camera,
@@ -146,6 +164,7 @@ Comparison compareView(const LoadedScene& loaded, renderer::Renderer& renderer, 
   progress.describe(loaded.name + ": timing");
   const auto times = timeInTurn(renderer, camera, options.frame, variants, options.repeats, progress);
   for (std::size_t i = 0; i < times.size(); ++i) comparison.rows[i].times = times[i];
+  timeSizes(renderer, camera, options, variants, progress, comparison);
   return comparison;
 }
 
@@ -188,6 +207,13 @@ Json makeJson(const Comparison& comparison, const ComparisonRow& row) {
                                              double(std::max<std::uint64_t>(1, times.counters.zexelPixels)));
   json["rays"] = times.counters.rays;
   json["rays_per_s"] = rate(times.raysPerS);
+  if (!row.sizes.empty()) json["sizes"] = Json::array();
+  for (const SizedTimes& sized : row.sizes)
+    json["sizes"].push_back({{"width", sized.sizePx.x},
+                             {"height", sized.sizePx.y},
+                             {"median_ms", sized.times.medianMs},
+                             {"p95_ms", sized.times.p95Ms},
+                             {"reflection_ms", sized.times.reflectionMs}});
   json["files"] = {{"picture", row.files.picture}};
   if (!row.files.displacement.empty()) json["files"]["displacement"] = row.files.displacement;
   if (!row.files.difference.empty()) json["files"]["difference"] = row.files.difference;

@@ -22,12 +22,19 @@ struct ComparisonFiles {
 /// The same pictures as data: addresses (JPEG), for the page that carries them in itself.
 using EmbeddedPictures = ComparisonFiles;
 
+/// Frames of one variant at another size.
+struct SizedTimes {
+  ivec2 sizePx{0};
+  FrameTimes times;
+};
+
 struct ComparisonRow {
   MethodVariant variant;
   metrics::DisplacementResult displacement;  ///< the image is not kept
   metrics::ImageDifference mirrors;          ///< pictures where method or truth shows a mirror
   metrics::ImageDifference primary;          ///< pictures everywhere else
   FrameTimes times;
+  std::vector<SizedTimes> sizes;  ///< ComparisonOptions::sizes
   ComparisonFiles files;
   EmbeddedPictures embedded;
 
@@ -46,6 +53,7 @@ struct ComparisonOptions {
   float exposure = 1;
   std::vector<MethodVariant> variants;  ///< without the truth
   int repeats = 3;
+  std::vector<ivec2> sizes{};    ///< at which the variants are timed besides, for time against resolution
   std::filesystem::path folder;  ///< of the report
   std::string viewFolder;        ///< below it, for the pictures of this view
 };

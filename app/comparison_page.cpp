@@ -78,6 +78,22 @@ std::string makeHtmlTable(const Comparison& comparison) {
   return html + "</table>\n";
 }
 
+/// Frame times by resolution; empty without --sizes.
+std::string makeSizeTable(const Comparison& comparison) {
+  if (comparison.rows.empty() || comparison.rows.front().sizes.empty()) return {};
+  std::string html = "<table class=\"sizes\">\n<tr><th>frame, ms</th>";
+  for (const SizedTimes& sized : comparison.rows.front().sizes)
+    html += fmt::format("<th>{}x{}</th>", sized.sizePx.x, sized.sizePx.y);
+  html += "</tr>\n";
+  for (const ComparisonRow& row : comparison.rows) {
+    html +=
+        fmt::format("<tr{}><td>{}</td>", row.isTruth() ? " class=\"truth\"" : "", escape(row.variant.name));
+    for (const SizedTimes& sized : row.sizes) html += fmt::format("<td>{:.1f}</td>", sized.times.medianMs);
+    html += "</tr>\n";
+  }
+  return html + "</table>\n";
+}
+
 std::string makeFigure(const std::string& file, const std::string& caption) {
   if (file.empty()) return {};
   return fmt::format(
@@ -94,7 +110,7 @@ std::string makeSection(const Comparison& comparison, std::size_t index) {
       "a pixel</p>\n",
       index, escape(comparison.sceneName), escape(comparison.camera.name), comparison.frame.widthPx,
       comparison.frame.heightPx, comparison.frame.bounces, comparison.frame.samples);
-  html += makeHtmlTable(comparison) + "<div class=\"moving\"></div>\n";
+  html += makeHtmlTable(comparison) + makeSizeTable(comparison) + "<div class=\"moving\"></div>\n";
   for (const ComparisonRow& row : comparison.rows) {
     if (row.isTruth()) continue;
     html += fmt::format("<h3>{}: {}</h3>\n<div class=\"row\">\n", escape(row.variant.name),
@@ -116,7 +132,12 @@ Json makePageData(const std::vector<Comparison>& comparisons) {
     Json rows = Json::array();
     for (const ComparisonRow& row : comparison.rows) {
       const metrics::DisplacementStatistics& objects = row.displacement.objectPixels;
+      Json sizes = Json::array();
+      for (const SizedTimes& sized : row.sizes)
+        sizes.push_back(
+            {{"megapixels", double(sized.sizePx.x) * sized.sizePx.y / 1e6}, {"ms", sized.times.medianMs}});
       rows.push_back({{"name", row.variant.name},
+                      {"sizes", sizes},
                       {"picture", row.files.picture},
                       {"median_ms", row.times.medianMs},
                       {"mean_px", objects.meanPx},

@@ -135,7 +135,7 @@ void declarePicture(Arguments& arguments, PictureOptions& options) {
                    setInteger("--samples", frame.samples, 1, kMostSamples));
   arguments.option(
       "--max-error", "PX", "Aim for the tessellation of reflected objects; default 0.5",
-      [&](const std::string& text) { frame.maxErrorPx = parseNumber("--max-error", text, 0.01, 100); });
+      [&](const std::string& text) { frame.maxErrorPx = parseNumber("--max-error", text, 0.01, 1e6); });
   arguments.option(
       "--merge", "NAME",
       "How what mirrors show is kept within them: ids (default), stencil, erase, depth, clip, texture",

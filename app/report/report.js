@@ -114,11 +114,27 @@ function makeCostChart(view) {
       plugins: {title: {display: true, text: "error against time"}}}});
 }
 
+/** How a frame grows with the number of its pixels; nothing unless several sizes were asked for. */
+function makeResolutionCharts(view) {
+  if (view.rows[0].sizes.length < 2) return [];
+  return [makeChart({
+    type: "line",
+    data: {datasets: view.rows.map((row, i) => ({
+      label: row.name, borderColor: colours[i % colours.length], backgroundColor: colours[i % colours.length],
+      pointRadius: 3, borderWidth: 2,
+      data: row.sizes.map((size) => ({x: size.megapixels, y: size.ms})).sort((a, b) => a.x - b.x)}))},
+    options: {
+      scales: {x: {type: "linear", beginAtZero: true, title: {display: true, text: "megapixels"}},
+               y: {type: "linear", beginAtZero: true, title: {display: true, text: "frame, ms"}}},
+      plugins: {title: {display: true, text: "time against resolution"}}}})];
+}
+
 fillPictures();
 document.querySelectorAll("table").forEach(sortAtClick);
 report.views.forEach((view, i) => {
   const section = document.querySelector(`section[data-view="${i}"] .moving`);
   section.append(makeSlider(view));
-  section.append(element("div", {className: "charts"}, makeDistributionChart(view), makeCostChart(view)));
+  section.append(element("div", {className: "charts"}, makeDistributionChart(view), makeCostChart(view),
+                         ...makeResolutionCharts(view)));
 });
 document.documentElement.dataset.ready = "yes";

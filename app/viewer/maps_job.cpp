@@ -1,37 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The explosion maps of one mirror for one eye (1998, section 4.1), as pictures: a colour for each triangle,
 // dimmer where an extension polygon of it stands in, black outside the circle.
-#include <array>
-
-#include "catoptric/virtual_object/virtual_object_solver.h"
+#include "catoptric/sketch/mirror_sketch.h"
 #include "viewer/jobs.h"
 
 namespace catoptric::viewer {
 namespace {
-
-/// Colours of neighbouring ids differ: steps of the golden angle round the hue circle, three brightnesses.
-glm::u8vec4 colourOf(std::uint32_t id, float strength) {
-  const float hue = float(id % 4096u) * 0.61803399f;
-  const float value = strength * (0.6f + 0.2f * float(id % 3u));
-  glm::u8vec4 colour(0, 0, 0, 255);
-  for (int c = 0; c < 3; ++c) {
-    const float phase = hue + float(c) / 3.0f;
-    const float wave = std::abs((phase - std::floor(phase)) * 6.0f - 3.0f) - 1.0f;
-    colour[c] = std::uint8_t(255.0f * value * (0.25f + 0.75f * glm::clamp(wave, 0.0f, 1.0f)));
-  }
-  return colour;
-}
-
-core::ImageRgba8 drawIds(const core::Image<std::uint32_t>& ids, bool hasExtensionBit) {
-  core::ImageRgba8 picture(ids.width(), ids.height(), glm::u8vec4(0, 0, 0, 255));
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    const std::uint32_t id = ids.pixels()[i];
-    if (id == core::kNoId) continue;
-    const bool isExtension = hasExtensionBit && (id & virtual_object::kExtensionBit) != 0;
-    picture.pixels()[i] = colourOf(hasExtensionBit ? id / 2 : id, isExtension ? 0.4f : 1.0f);
-  }
-  return picture;
-}
 
 /// Meshes are kept: they do not depend on the eye.
 struct KeptMesh {
@@ -61,9 +35,9 @@ MapsWorker::Work makeMapsWork() {
     const virtual_object::VirtualObjectSolver solver(*kept->mesh, request.eye, farRadius);
     result.canReflect = solver.canReflect();
     result.triangles = kept->mesh->triangles().size();
-    result.nearMap = drawIds(solver.nearMap().ids, true);
-    result.farMap = drawIds(solver.farMap().ids, true);
-    result.hiddenMap = drawIds(solver.hiddenMap().ids, false);
+    result.nearMap = sketch::drawMap(solver.nearMap().ids, true);
+    result.farMap = sketch::drawMap(solver.farMap().ids, true);
+    result.hiddenMap = sketch::drawMap(solver.hiddenMap().ids, false);
     return result;
   };
 }

@@ -38,6 +38,12 @@ vec3 readColor(sampler2D color, usampler2D zexels, ZexelRay ray, ZexelAnswer ans
                       : readZexelColor(color, zexels, position, answer.at);
 }
 
+/// The zexel at its own depth along the ray: what a splat shows where the ray misses the zexel's plane by more than planes are
+/// continued. A 3x3 splat does where many zexels fall on a pixel.
+ZexelAnswer standAtZexel(usampler2D zexels, ZexelRay ray, ivec2 at) {
+  return ZexelAnswer((1.0f / disparityOf(texelFetch(zexels, at, 0).xy) - ray.o.z) / ray.s.z, at, false);
+}
+
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   if (texelFetch(u_parentIds, pixel, 0).y != u_parentWord) discard;
@@ -53,6 +59,7 @@ void main() {
   int width = isFirst ? textureSize(u_zexels0, 0).x : textureSize(u_zexels1, 0).x;
   ivec2 start = ivec2(index % width, index / width);
   ZexelAnswer answer = isFirst ? followZexels(u_zexels0, ray0, start, reach) : followZexels(u_zexels1, ray1, start, reach);
+  if (answer.t < 0.0f) answer = isFirst ? standAtZexel(u_zexels0, ray0, start) : standAtZexel(u_zexels1, ray1, start);
   // Where this image cannot tell, the other is asked about the same point.
   if (!answer.isSure && answer.t > 0.0f && u_count > 1) {
     vec2 there = isFirst ? zexelAt(ray1, answer.t) : zexelAt(ray0, answer.t);

@@ -19,6 +19,16 @@ class Compare(support.CommandTest):
         self.assertEqual(document, json.loads(self.read("report", "report.json")))
         return document
 
+    def test_time_against_resolution(self):
+        self.succeed("compare", "scene.gltf", "-o", "sized", *support.SMALL, "--repeat", "1", "--methods", "none,environment",
+                     "--sizes", "32x24,128x96", "-q")
+        for row in json.loads(self.read("sized", "report.json"))["results"]:
+            self.assertEqual([(size["width"], size["height"]) for size in row["sizes"]], [(32, 24), (128, 96)])
+            self.assertTrue(all(size["median_ms"] > 0 for size in row["sizes"]))
+            self.assertEqual(row["width"], 64)
+        self.refuse(2, "--sizes", "compare", "scene.gltf", "-o", "bad", "--sizes", "32x24,large")
+        self.assertFalse(os.path.exists(self.path("bad")))
+
     def test_report(self):
         document = self.compare("scene.gltf")
         rows = {row["name"]: row for row in document["results"]}

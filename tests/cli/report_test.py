@@ -61,7 +61,7 @@ class Report(support.CommandTest):
         return json.loads(html.unescape(found.group(1)))
 
     def test_slider_sorting_and_charts_work_from_a_file(self):
-        self.succeed("compare", "scene.gltf", "-o", "report", "--size", "96x72", "--repeat", "1",
+        self.succeed("compare", "scene.gltf", "-o", "report", "--size", "96x72", "--repeat", "1", "--sizes", "48x36,96x72,192x144",
                      "--methods", "none,virtual-refined,environment")
         page = self.read("report", "index.html").decode()
         shutil.rmtree(self.path("report"))  # the page alone is the report
@@ -77,7 +77,9 @@ class Report(support.CommandTest):
         self.assertEqual(found["pictures"], [False, 96, 96])
         self.assertTrue(found["same"])
         self.assertNotEqual(*found["clip"])
-        self.assertEqual(found["charts"], [True, True])
+        self.assertEqual(found["charts"], [True, True, True])  # errors, error against time, time against resolution
+        self.assertIn("<th>192x144</th>", page)
+        self.assertIn("catoptric compare scene.gltf -o report", page)
 
         # The twin: the same page, its script cut short, is found out.
         broken = self.browse(page.replace("fillPictures();\n", "fillNothing();\n"))

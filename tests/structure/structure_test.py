@@ -22,7 +22,9 @@ METHODS = {"planar_mirror", "virtual_object", "environment_map", "reflection_mor
 # core <- geometry <- scene <- raster <- methods <- renderer; no method sees another, nor the judge, and it sees none.
 SEES = {"core": set(), "geometry": {"core"}, "scene": {"core", "geometry"}, "gl": {"core"}, "metrics": {"core"},
         "raster": SCENE | {"gl"}, "reference": SCENE, **{method: RASTER for method in METHODS},
-        "renderer": RASTER | METHODS | {"reference"}}
+        "renderer": RASTER | METHODS | {"reference"},
+        # It looks into methods and draws what it finds; nothing in the library looks back.
+        "sketch": RASTER | {"virtual_object", "reflection_morphing", "depth_reflection_map"}}
 
 
 def compile_text(compiler, directories, text):

@@ -321,7 +321,7 @@ TessellatedObjects tessellateForReflector(const scene::WorldGeometry& geometry, 
   const double leastPx = distance.turnsRound() ? kLeastTurnedPx : 1.0;
   const double diameterPx = std::max(4.0 * double(distance.focalLength()) * pixelsPerUnit, leastPx);
   double k = std::sqrt(std::max(options.maxErrorPx, 1e-3) / (kSagFactor * diameterPx));
-  k = std::min(k, 0.5);
+  k = options.maxErrorPx < kUncutPx ? std::min(k, 0.5) : 1e30;
   const double asked = k;
 
   const scene::Reflector* mirror = options.isSeenDirectly ? &geometry.reflectors[reflector] : nullptr;

@@ -39,6 +39,8 @@ struct TessellatedObjects {
   double edgeFactor = 0;  ///< the k that was used (larger than asked for if the budget was hit)
 };
 
+inline constexpr double kUncutPx = 1e6;  ///< from this maxErrorPx on nothing is cut at all
+
 struct TessellationOptions {
   double maxErrorPx = 0.5;           ///< aim: how far the drawn image of an edge may be from the true one
   double reflectorDiameterPx = 700;  ///< at which size of the reflector on the screen (bounding sphere)

@@ -116,6 +116,15 @@ TEST(Tessellation, isFineNearTheMirrorAndCoarseAway) {
   EXPECT_GE(longestFar, 2 * longestNear);
 }
 
+TEST(Tessellation, leavesEverythingAsItIsWhereAnyErrorWillDo) {
+  const TestWorld world = makeWorld();
+  const scene::WorldGeometry& g = world.geometry();
+  const std::size_t own = g.parts[0].indexCount;
+  EXPECT_EQ(tessellateForReflector(g, 0, {.maxErrorPx = kUncutPx}).indices.size(), g.indices.size() - own);
+  EXPECT_GT(tessellateForReflector(g, 0, {.maxErrorPx = 0.9 * kUncutPx}).indices.size(),
+            g.indices.size() - own);
+}
+
 TEST(Tessellation, attributesAreMeansAndNormalsAreNotRenormalised) {
   const TestWorld world = makeWorld();
   const TessellatedObjects objects = tessellateForReflector(world.geometry(), 0);
