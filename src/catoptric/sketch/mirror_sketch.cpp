@@ -7,7 +7,6 @@
 
 namespace catoptric::sketch {
 
-using virtual_object::MirrorTriangle;
 using virtual_object::ReflectorMesh;
 using virtual_object::VirtualObjectSolver;
 

@@ -158,7 +158,7 @@ Sketch sketchMapping(const ReflectorMesh& mesh, const dvec3& eye, const Explosio
   sketch.addDot(map.centre, kGrey);
   const std::vector<ProfilePoint> front = listFront(cutMesh(mesh, section), eye, section);
   if (front.empty()) return sketch;
-  const ProfilePoint& p = front[std::size_t(share * double(front.size() - 1) + 0.5)];
+  const ProfilePoint& p = front[std::size_t(std::lround(share * double(front.size() - 1)))];
   const dvec3 ray = reflectAt(p, eye), from = p.position - map.centre;
   const double half = glm::dot(from, ray);
   const double reach =
