@@ -14,12 +14,10 @@
 #include "catoptric/metrics/displacement.h"
 #include "catoptric/metrics/image_difference.h"
 #include "catoptric/renderer/frame.h"
-#include "loaded_scene.h"
+#include "viewer/posed_scene.h"
 #include "viewer/worker.h"
 
 namespace catoptric::viewer {
-
-using ScenePointer = std::shared_ptr<const app::LoadedScene>;
 
 struct LoadRequest {
   std::string source, environment;   ///< as on the command line; no environment = the built-in sky
@@ -33,20 +31,26 @@ struct LoadResult {
   ScenePointer scene;
   scene::Camera camera;                      ///< where the command line puts it
   std::vector<scene::Reflector> reflectors;  ///< all that the scene has, also when only some are mirrors now
+  double durationS = 0;                      ///< of its animations; 0: none
+  std::optional<double> timeS;               ///< to begin at; absent: the rest pose
 };
 
 struct FrameRequest {
   ScenePointer scene;
+  SceneState state;
   scene::Camera camera;
+  std::optional<std::size_t> sceneCamera;  ///< the eye moves with this camera of the scene instead
   renderer::FrameOptions options;
   float exposure = 1;
   std::uint64_t view = 0;  ///< counts what the user has changed
   double scale = 1;        ///< of the full resolution
+  std::string recordFile;  ///< write the picture there; empty: do not
 };
 
 struct FrameResult {
-  FrameRequest request;
+  FrameRequest request;  ///< its camera is where the eye was
   std::shared_ptr<const renderer::Frame> frame;
+  GeometryPointer geometry;  ///< as drawn; only where the frame says what is seen
   core::ImageRgba8 picture;
   double wholeMs = 0;  ///< from request to picture, with reading back and tone mapping
 };
@@ -68,7 +72,7 @@ struct TruthResult {
 };
 
 struct MapsRequest {
-  ScenePointer scene;
+  GeometryPointer geometry;
   dvec3 eye{0};
   std::uint32_t reflector = 0;
 };

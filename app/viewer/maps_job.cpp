@@ -35,7 +35,7 @@ core::ImageRgba8 drawIds(const core::Image<std::uint32_t>& ids, bool hasExtensio
 
 /// Meshes are kept: they do not depend on the eye.
 struct KeptMesh {
-  ScenePointer scene;
+  GeometryPointer geometry;
   std::uint32_t reflector = core::kNoId;
   std::unique_ptr<virtual_object::ReflectorMesh> mesh;
 };
@@ -44,16 +44,16 @@ struct KeptMesh {
 
 MapsWorker::Work makeMapsWork() {
   return [kept = std::make_shared<KeptMesh>()](const MapsRequest& request) {
-    const scene::WorldGeometry& world = request.scene->geometry;
+    const scene::WorldGeometry& world = *request.geometry;
     MapsResult result;
     result.request = request;
     if (request.reflector >= world.reflectors.size() ||
         world.reflectors[request.reflector].shape == scene::ReflectorShape::Plane)
       return result;
-    if (kept->scene != request.scene || kept->reflector != request.reflector) {
+    if (kept->geometry != request.geometry || kept->reflector != request.reflector) {
       kept->mesh = std::make_unique<virtual_object::ReflectorMesh>(world, request.reflector,
                                                                    virtual_object::ReflectorMeshOptions{});
-      kept->scene = request.scene;
+      kept->geometry = request.geometry;
       kept->reflector = request.reflector;
     }
     const double farRadius =

@@ -18,7 +18,7 @@ std::string describeShape(const scene::Reflector& reflector) {
 }
 
 bool isMirrorNow(const Model& model, const std::string& name) {
-  const auto& now = model.loaded.scene->geometry.reflectors;
+  const auto& now = model.geometry->reflectors;
   return std::any_of(now.begin(), now.end(), [&](const scene::Reflector& r) { return r.name == name; });
 }
 
@@ -53,7 +53,7 @@ void drawReflectorRow(Model& model, const scene::Reflector& reflector) {
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", choice.reason.c_str());
   ImGui::TableNextColumn();
   if (on && reflector.shape != scene::ReflectorShape::Plane && ImGui::SmallButton("maps")) {
-    const auto& now = model.loaded.scene->geometry.reflectors;
+    const auto& now = model.geometry->reflectors;
     for (std::size_t i = 0; i < now.size(); ++i)
       if (now[i].name == reflector.name) model.view.mapsOf = std::uint32_t(i);
   }
@@ -70,14 +70,19 @@ void drawMap(const char* title, const ShownPicture& picture) {
 }  // namespace
 
 void drawReflectors(Model& model) {
-  if (model.loaded.reflectors.empty()) return ImGui::TextUnformatted("the scene has no mirrors");
+  std::vector<scene::Reflector> reflectors = model.loaded.reflectors;
+  for (const scene::Reflector& now : model.geometry->reflectors)  // and those that an edit has made
+    if (std::none_of(reflectors.begin(), reflectors.end(),
+                     [&](const scene::Reflector& known) { return known.name == now.name; }))
+      reflectors.push_back(now);
+  if (reflectors.empty()) return ImGui::TextUnformatted("the scene has no mirrors");
   if (!ImGui::BeginTable("mirrors", 4,
                          ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingFixedFit,
-                         ImVec2(420, std::min(220.0f, 28.0f * float(model.loaded.reflectors.size()) + 8.0f))))
+                         ImVec2(420, std::min(220.0f, 28.0f * float(reflectors.size()) + 8.0f))))
     return;
-  for (std::size_t i = 0; i < model.loaded.reflectors.size(); ++i) {
+  for (std::size_t i = 0; i < reflectors.size(); ++i) {
     ImGui::PushID(int(i));
-    drawReflectorRow(model, model.loaded.reflectors[i]);
+    drawReflectorRow(model, reflectors[i]);
     ImGui::PopID();
   }
   ImGui::EndTable();
@@ -92,10 +97,10 @@ void drawMaps(Model& model, const MapPictures& maps) {
   ImGui::SetNextWindowBgAlpha(0.9f);
   if (ImGui::Begin("explosion maps", &isShown,
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
-    const auto& reflectors = model.loaded.scene->geometry.reflectors;
+    const auto& reflectors = model.geometry->reflectors;
     if (*model.view.mapsOf < reflectors.size())
       ImGui::TextUnformatted(reflectors[*model.view.mapsOf].name.c_str());
-    if (model.maps && model.maps->request.scene == model.loaded.scene &&
+    if (model.maps && model.maps->request.geometry == model.geometry &&
         model.maps->request.reflector == *model.view.mapsOf) {
       if (!model.maps->canReflect) {
         ImGui::TextUnformatted("flat, or the eye sees none of its front: it has no maps");

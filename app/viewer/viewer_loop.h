@@ -33,15 +33,21 @@ class ViewerLoop {
  private:
   void takeResults();
   void takeScene(LoadResult result);
+  void useCameraOf(const LoadResult& result);
   void takeFrame(FrameResult result);
   void takeTruth(TruthResult result);
   void takeMaps(MapsResult result);
   void openDropped();
   void grantWishes();
   void writeScreenshot();
+  void advanceTime();
+  void switchRecording();
+  void undoOrRedo(bool undo);
+  void saveSession();
+  [[nodiscard]] std::vector<std::string> makeSceneWords() const;
   [[nodiscard]] std::string commandText() const {
     return makeCommandText(model_.loaded.request, model_.view.camera, model_.frameOptions(windowPx_),
-                           model_.view.exposure, model_.sceneOptions);
+                           model_.view.exposure, makeSceneWords());
   }
   void askForFrame();
   void askForTruth();
@@ -68,7 +74,7 @@ class ViewerLoop {
   Model model_;
   MovingResolution moving_;
   WatchedFile watched_;
-  Clock::time_point lastChange_{}, messageTime_{};
+  Clock::time_point lastChange_{}, messageTime_{}, lastAdvance_{};
   std::uint64_t view_ = 1;
   FrameRequest asked_;
   MapsRequest askedMaps_;

@@ -49,6 +49,11 @@ void ViewerLoop::grantWishes() {
   Wishes& wishes = model_.wishes;
   if (wishes.close) window_.close();
   if (wishes.load) load(*wishes.load);
+  if (model_.loaded.scene) {
+    if (wishes.undo || wishes.redo) undoOrRedo(wishes.undo);
+    if (wishes.record) switchRecording();
+    if (wishes.saveSession) saveSession();
+  }
   if (wishes.viewChanged) {
     ++view_;
     lastChange_ = Clock::now();
@@ -59,12 +64,20 @@ void ViewerLoop::grantWishes() {
     const std::string text = commandText();
     window_.copyText(text);
     options_.printLine(text);
-    tell("copied: " + text);
+    tell("copied: " + text + (model_.view.state.hasEdits() ? " (without the edits)" : ""));
   }
   const bool screenshotWaits = wishes.screenshot && !isFrameSettled();
   if (wishes.screenshot && !screenshotWaits) writeScreenshot();
   wishes = Wishes{};
   wishes.screenshot = screenshotWaits;
+}
+
+std::vector<std::string> ViewerLoop::makeSceneWords() const {
+  std::vector<std::string> words = model_.sceneOptions;
+  if (model_.view.state.timeS) words.push_back(fmt::format("--time={}", *model_.view.state.timeS));
+  if (!model_.loaded.scene->animation.empty())
+    words.push_back("--animation=" + model_.loaded.scene->animation);
+  return words;
 }
 
 void ViewerLoop::writeScreenshot() {
@@ -84,19 +97,26 @@ void ViewerLoop::writeScreenshot() {
 void ViewerLoop::askForFrame() {
   if (!model_.loaded.scene || windowPx_.x == 0) return;
   const bool isFirst = !model_.frame.frame;
-  const bool inFull = isFirst || isAtRest();
+  const bool isRecording = model_.recording.has_value();
+  const bool inFull = isFirst || isAtRest() || isRecording;
+  const bool withSeen = inFull && !isRecording;
   FrameRequest request;
   request.scene = model_.loaded.scene;
+  request.state = model_.view.state;
   request.camera = model_.view.camera;
+  request.sceneCamera = model_.view.sceneCamera;
   request.options = model_.frameOptions(windowPx_);
   request.exposure = model_.view.exposure;
   request.view = view_;
   request.scale = inFull ? 1.0 : moving_.scale();
-  request.options.withSeen = inFull;
+  request.options.withSeen = withSeen;
   request.options.widthPx = std::max(1, int(request.options.widthPx * request.scale));
   request.options.heightPx = std::max(1, int(request.options.heightPx * request.scale));
-  if (asked_.view == request.view && asked_.options.withSeen == inFull) return;
-  if (!inFull && drawer_.isBusy()) return;  // the next one when this one is there, of the view as it is then
+  if (asked_.view == request.view && asked_.options.withSeen == withSeen) return;
+  // The next one when this one is there, of the view as it is then.
+  if ((!inFull || isRecording) && drawer_.isBusy()) return;
+  if (isRecording)
+    request.recordFile = fmt::format("{}/{:04}.png", model_.recording->folder, ++model_.recording->frames);
   asked_ = request;
   drawer_.ask(std::move(request));
 }
@@ -113,8 +133,8 @@ void ViewerLoop::askForTruth() {
 
 void ViewerLoop::askForMaps() {
   if (!model_.view.mapsOf || mapper_.isBusy()) return;
-  const MapsRequest request{model_.loaded.scene, model_.view.camera.eye, *model_.view.mapsOf};
-  if (askedMaps_.scene == request.scene && askedMaps_.eye == request.eye &&
+  const MapsRequest request{model_.geometry, model_.view.camera.eye, *model_.view.mapsOf};
+  if (askedMaps_.geometry == request.geometry && askedMaps_.eye == request.eye &&
       askedMaps_.reflector == request.reflector)
     return;
   askedMaps_ = request;

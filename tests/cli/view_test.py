@@ -34,7 +34,9 @@ class WithoutDisplay(support.CommandTest):
             self.succeed("render", "scene.gltf", "-o", "x.png", *support.SMALL, env=display)
 
 
-class WithDisplay(support.CommandTest):
+class WindowTest(support.CommandTest):
+    """On a display of its own."""
+
     @classmethod
     def setUpClass(cls):
         cls.server = window_support.Display()
@@ -58,6 +60,8 @@ class WithDisplay(support.CommandTest):
         self.assertEqual(viewer.end(), 0, viewer.said())
         self.assertNotIn("error", viewer.said())
 
+
+class WithDisplay(WindowTest):
     def test_session(self):
         viewer = self.view("scene.gltf", "--size", "320x240", "--camera", "front")
         viewer.wait_for_window()

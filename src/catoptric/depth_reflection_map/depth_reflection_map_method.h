@@ -35,6 +35,7 @@ class DepthReflectionMapMethod : public raster::ReflectionMethod {
     windows_.clear();
     inverse_.geometryChanged();
   }
+  void materialsChanged() override { geometryChanged(); }
   void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
               raster::Level& target) override;
 

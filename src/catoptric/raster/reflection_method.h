@@ -55,6 +55,8 @@ class ReflectionMethod {
   virtual void prepare(FrameContext& frame) = 0;
   /// Vertices or reflectors of the scene have moved: whatever was made from them is out of date.
   virtual void geometryChanged() {}
+  /// Materials look different: the same of pictures that were taken.
+  virtual void materialsChanged() {}
   /// Draws what the last mirror of the chain shows into `target`, at the pixels of `parent` that show that
   /// mirror.
   virtual void render(FrameContext& frame, const Chain& chain, const Level& parent, Level& target) = 0;

@@ -114,6 +114,10 @@ class Renderer {
   /// After vertices of these parts of the geometry, or reflectors, have moved (scene::WorldMotion).
   void updateGeometry(std::span<const std::uint32_t> movedParts);
 
+  /// After values of materials, not their textures, or reflectivities of reflectors have changed
+  /// (scene::changeMaterial()).
+  void updateMaterials();
+
   /// Writes the reference images of zexels to ZexelOptions::cacheFile, when there are new ones. Throws
   /// core::Error("file.write").
   void saveReferenceImages();

@@ -109,6 +109,12 @@ void RasterFrame::updateGeometry(std::span<const std::uint32_t> movedParts) {
   morphing_.partsMoved(geometry_, movedParts);
 }
 
+void RasterFrame::updateMaterials() {
+  scene_.updateMaterials();
+  hasMoved_ = true;
+  for (raster::ReflectionMethod* method : methods_) method->materialsChanged();
+}
+
 void RasterFrame::prepareLevels(int count, const FrameOptions& options) {
   const int widthPx = options.widthPx, heightPx = options.heightPx;
   const bool withStencil = options.merge == Merge::Stencil || options.merge == Merge::Erase;

@@ -27,6 +27,8 @@ class RasterFrame {
   [[nodiscard]] Frame render(const scene::CameraFrame& camera, const FrameOptions& options);
   /// After vertices of these parts have moved.
   void updateGeometry(std::span<const std::uint32_t> movedParts);
+  /// After values of materials have changed.
+  void updateMaterials();
   void saveReferenceImages() { zexel_.saveCacheFile(); }
 
  private:

@@ -70,6 +70,13 @@ void Renderer::updateGeometry(std::span<const std::uint32_t> movedParts) {
   impl_->raster->updateGeometry(movedParts);
 }
 
+void Renderer::updateMaterials() {
+  impl_->tracer.reset();
+  if (!impl_->raster) return;
+  impl_->getContext().makeCurrent();
+  impl_->raster->updateMaterials();
+}
+
 void Renderer::saveReferenceImages() {
   if (!impl_->raster) return;
   impl_->getContext().makeCurrent();
