@@ -32,6 +32,20 @@ void record(const FrameResult& result) {
                             std::span<const std::byte>(core::encodePng(result.picture)));
 }
 
+/// The renderer still has the frame that is asked about: it is the same thread's.
+FrameResult drawElsewhere(KeptRenderer& kept, FrameResult result) {
+  const ElsewhereRequest& elsewhere = *result.request.elsewhere;
+  try {
+    renderer::Renderer& renderer = kept.prepare(result.request.scene, result.request.state);
+    result.picture =
+        core::toneMap(renderer.renderElsewhere(elsewhere.camera, elsewhere.options), result.request.exposure);
+  } catch (...) {
+    kept.drop();
+    throw;
+  }
+  return result;
+}
+
 TruthResult judge(const TruthRequest& request, const renderer::Frame& truth, TruthResult result) {
   const renderer::Frame& method = *request.method.frame;
   const core::ImageRgba8& picture = request.method.picture;
@@ -54,6 +68,7 @@ FrameWorker::Work makeFrameWork() {
     const auto start = std::chrono::steady_clock::now();
     FrameResult result;
     result.request = request;
+    if (request.elsewhere) return drawElsewhere(*kept, std::move(result));
     if (request.sceneCamera) {
       (void)kept->prepare(request.scene, request.state);
       result.request.camera = kept->posed().scene().cameras.at(*request.sceneCamera);

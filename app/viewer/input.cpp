@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "viewer/camera_control.h"
+#include "viewer/inside_panel.h"
 #include "viewer/picking.h"
 
 namespace catoptric::viewer {
@@ -89,6 +90,7 @@ void handleKey(Model& model, const KeyPress& press) {
   if (press.key == GLFW_KEY_ESCAPE) wishes.close = true;
   if (press.control) return handleControlKey(wishes, press);
   if (press.key == GLFW_KEY_H || (press.shift && press.key == GLFW_KEY_SLASH)) view.showHelp = !view.showHelp;
+  if (press.key == GLFW_KEY_I && model.loaded.scene) switchInside(model);
   if (press.key == GLFW_KEY_P) view.showPanels = !view.showPanels;
   if (press.key == GLFW_KEY_M) nextMethod(model, press.shift ? -1 : 1);
   if (press.key == GLFW_KEY_PAGE_DOWN) nextFile(model, 1);
@@ -177,7 +179,7 @@ void handleInput(Model& model, std::span<const KeyPress> keys, const ivec2& wind
 }
 
 std::span<const KeyHelp> keyHelp() {
-  static constexpr std::array<KeyHelp, 22> kHelp{{{"left drag", "orbit"},
+  static constexpr std::array<KeyHelp, 23> kHelp{{{"left drag", "orbit"},
                                                   {"middle or shift-left drag", "pan"},
                                                   {"wheel", "zoom"},
                                                   {"double click", "set the pivot"},
@@ -185,6 +187,7 @@ std::span<const KeyHelp> keyHelp() {
                                                   {"ctrl-click, ctrl-left drag", "pick, move an object"},
                                                   {"ctrl-Z, ctrl-shift-Z", "undo, redo"},
                                                   {"space", "play, pause"},
+                                                  {"I", "inside the method: a second camera"},
                                                   {"M, shift-M", "next, previous method"},
                                                   {"S", "split line against the ray-traced truth"},
                                                   {"D", "difference, displacement, off"},

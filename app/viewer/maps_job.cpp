@@ -2,6 +2,7 @@
 // The explosion maps of one mirror for one eye (1998, section 4.1), as pictures: a colour for each triangle,
 // dimmer where an extension polygon of it stands in, black outside the circle.
 #include <array>
+#include <functional>
 
 #include "catoptric/virtual_object/virtual_object_solver.h"
 #include "viewer/jobs.h"
@@ -31,6 +32,19 @@ core::ImageRgba8 drawIds(const core::Image<std::uint32_t>& ids, bool hasExtensio
     picture.pixels()[i] = colourOf(hasExtensionBit ? id / 2 : id, isExtension ? 0.4f : 1.0f);
   }
   return picture;
+}
+
+/// As VirtualObjectSolver looks a point up; copies what it needs, the solver does not stay.
+std::function<MapPlaces(const dvec3&)> makeFinder(const virtual_object::VirtualObjectSolver& solver) {
+  using virtual_object::computeMapCoords;
+  const virtual_object::HiddenMap& map = solver.hiddenMap();
+  return [centre = solver.mesh().centre(), frame = solver.nearMap().frame, hidden = map.frame, eye = map.eye,
+          lower = map.lower, perUnit = map.pixelsPerUnit,
+          sizePx = dvec2(map.ids.width(), map.ids.height())](const dvec3& point) {
+    const dvec2 onSphere = computeMapCoords(frame, glm::normalize(point - centre));
+    const dvec2 fromEye = computeMapCoords(hidden, glm::normalize(point - eye));
+    return MapPlaces{0.5 * (onSphere + 1.0), (fromEye - lower) * perUnit / sizePx};
+  };
 }
 
 /// Meshes are kept: they do not depend on the eye.
@@ -64,6 +78,7 @@ MapsWorker::Work makeMapsWork() {
     result.nearMap = drawIds(solver.nearMap().ids, true);
     result.farMap = drawIds(solver.farMap().ids, true);
     result.hiddenMap = drawIds(solver.hiddenMap().ids, false);
+    result.findPlaces = makeFinder(solver);
     return result;
   };
 }

@@ -35,7 +35,10 @@ struct ViewState {
   Comparison comparison = Comparison::None;
   float split = 0.5f;  ///< where the line is, share of the width
   bool showPanels = true, showHelp = false;
-  std::optional<std::uint32_t> mapsOf;  ///< reflector whose explosion maps are shown
+  std::optional<std::uint32_t> mapsOf;    ///< reflector whose explosion maps are shown
+  std::optional<std::uint32_t> insideOf;  ///< and whose method is looked at from elsewhere ...
+  scene::Camera elsewhere;                ///< ... by this camera
+  raster::MarkOptions marks;
 };
 
 /// What is under the mouse.

@@ -9,6 +9,7 @@
 #include "viewer/camera_control.h"
 #include "viewer/edit_panel.h"
 #include "viewer/input.h"
+#include "viewer/inside_panel.h"
 #include "viewer/scene_panels.h"
 #include "viewer/time_graph.h"
 
@@ -92,6 +93,7 @@ void drawCamera(Model& model) {
     }
     ImGui::PopItemWidth();
   }
+  if (ImGui::Button("inside the method (I)")) switchInside(model);
   if (ImGui::Button("screenshot (F12)")) model.wishes.screenshot = true;
   ImGui::SameLine();
   if (ImGui::Button("copy command (ctrl-C)")) model.wishes.copyCommand = true;
@@ -194,6 +196,7 @@ void drawPanels(Model& model, const MapPictures& maps) {
   if (model.loaded.scene && model.view.showPanels) {
     drawMain(model);
     drawMaps(model, maps);
+    drawInside(model, maps.inside);
   }
   if (model.view.showHelp) drawHelp(model);
   drawStatus(model);

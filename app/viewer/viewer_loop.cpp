@@ -70,6 +70,7 @@ void ViewerLoop::run() {
     askForFrame();
     askForTruth();
     askForMaps();
+    askForElsewhere();
     if (options_.watch && watched_.hasChanged() && !model_.isLoading) {
       LoadRequest again = model_.loaded.request;
       again.keepsCamera = true;
@@ -150,6 +151,7 @@ void ViewerLoop::takeScene(LoadResult result) {
   model_.geometryState = {};
   if (isFirst && options_.session) restoreSession(*options_.session, model_.view);
   model_.view.mapsOf.reset();
+  model_.view.insideOf.reset();
   model_.wishes.viewChanged = true;
   model_.message.clear();
   if (options_.watch && !model_.loaded.scene->isBuiltIn) watched_.watch(model_.loaded.request.source);
@@ -157,6 +159,11 @@ void ViewerLoop::takeScene(LoadResult result) {
 }
 
 void ViewerLoop::takeFrame(FrameResult result) {
+  if (result.request.elsewhere) {
+    maps_.inside.set(result.picture);
+    drawsLeft_ = std::max(drawsLeft_, 1);
+    return options_.sayDetail("from elsewhere");
+  }
   if (!model_.frame.frame)
     options_.sayDetail(fmt::format("first picture after {:.0f} ms", 1e3 * secondsSince(start_)));
   moving_.learn(result.request.scale, result.wholeMs);
@@ -170,6 +177,13 @@ void ViewerLoop::takeFrame(FrameResult result) {
   pictures_.method.set(result.picture);
   model_.frame = std::move(result);
   drawsLeft_ = std::max(drawsLeft_, 1);
+  if (!model_.frame.request.options.withSeen)
+    options_.sayDetail(fmt::format("moving: {}x{}, {:.0f} ms, {:.0f} ms after the input",
+                                   model_.frame.picture.width(), model_.frame.picture.height(),
+                                   model_.frame.wholeMs, 1e3 * secondsSince(model_.frame.request.changed)));
+  if (isFrameSettled() && !isFirstInFull_)
+    options_.sayDetail(fmt::format("first picture in full after {:.0f} ms", 1e3 * secondsSince(start_)));
+  isFirstInFull_ = isFirstInFull_ || isFrameSettled();
   if (isFrameSettled())
     options_.sayDetail(fmt::format("settled: {}, {}x{}, {:.0f} ms", model_.variants[model_.view.variant].name,
                                    model_.frame.picture.width(), model_.frame.picture.height(),

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "viewer/command_text.h"
@@ -52,6 +53,7 @@ class ViewerLoop {
   void askForFrame();
   void askForTruth();
   void askForMaps();
+  void askForElsewhere();
   void load(const LoadRequest& request);
   void tell(const std::string& message, bool isError = false);
   [[nodiscard]] double waitSeconds() const;
@@ -75,8 +77,10 @@ class ViewerLoop {
   MovingResolution moving_;
   WatchedFile watched_;
   Clock::time_point lastChange_{}, messageTime_{}, lastAdvance_{};
+  std::optional<Clock::time_point> oldestUnasked_;  ///< change that no frame was asked for yet
   std::uint64_t view_ = 1;
-  FrameRequest asked_;
+  bool isFirstInFull_ = false;  ///< a picture in full has been shown
+  FrameRequest asked_, askedElsewhere_;
   MapsRequest askedMaps_;
   std::shared_ptr<std::atomic<bool>> cancelTruth_;  ///< of the pass in hand
   ivec2 windowPx_{0};

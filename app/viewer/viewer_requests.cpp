@@ -8,6 +8,8 @@
 #include "catoptric/core/error.h"
 #include "catoptric/core/file.h"
 #include "catoptric/core/image_io.h"
+#include "viewer/camera_control.h"
+#include "viewer/inside_panel.h"
 #include "viewer/viewer_loop.h"
 
 namespace catoptric::viewer {
@@ -57,6 +59,7 @@ void ViewerLoop::grantWishes() {
   if (wishes.viewChanged) {
     ++view_;
     lastChange_ = Clock::now();
+    if (!oldestUnasked_) oldestUnasked_ = lastChange_;
     model_.truth.reset();
     if (cancelTruth_) *cancelTruth_ = true;
   }
@@ -98,7 +101,7 @@ void ViewerLoop::askForFrame() {
   if (!model_.loaded.scene || windowPx_.x == 0) return;
   const bool isFirst = !model_.frame.frame;
   const bool isRecording = model_.recording.has_value();
-  const bool inFull = isFirst || isAtRest() || isRecording;
+  const bool inFull = (isAtRest() && !isFirst) || isRecording;  // the first picture is coarse, but soon there
   const bool withSeen = inFull && !isRecording;
   FrameRequest request;
   request.scene = model_.loaded.scene;
@@ -108,6 +111,7 @@ void ViewerLoop::askForFrame() {
   request.options = model_.frameOptions(windowPx_);
   request.exposure = model_.view.exposure;
   request.view = view_;
+  request.changed = oldestUnasked_.value_or(lastChange_);
   request.scale = inFull ? 1.0 : moving_.scale();
   request.options.withSeen = withSeen;
   request.options.widthPx = std::max(1, int(request.options.widthPx * request.scale));
@@ -118,6 +122,7 @@ void ViewerLoop::askForFrame() {
   if (isRecording)
     request.recordFile = fmt::format("{}/{:04}.png", model_.recording->folder, ++model_.recording->frames);
   asked_ = request;
+  oldestUnasked_.reset();
   drawer_.ask(std::move(request));
 }
 
@@ -129,6 +134,24 @@ void ViewerLoop::askForTruth() {
   cancelTruth_ = std::make_shared<std::atomic<bool>>(false);
   tracer_.ask({model_.frame, cancelTruth_, pass});
   model_.isTracing = true;
+}
+
+/// Of the frame at rest that the drawer has drawn last.
+void ViewerLoop::askForElsewhere() {
+  ViewState& view = model_.view;
+  if (!view.insideOf || !model_.view.showPanels || !isFrameSettled() || drawer_.isBusy()) return;
+  if (model_.picked && !model_.picked->seen.isSky() && model_.picked->seen.firstReflector == *view.insideOf)
+    view.marks.point = dvec3(model_.picked->seen.point);
+  FrameRequest request = model_.frame.request;
+  request.recordFile.clear();
+  request.elsewhere =
+      ElsewhereRequest{view.elsewhere, {*view.insideOf, view.marks, kInsideWidthPx, kInsideHeightPx}};
+  if (askedElsewhere_.elsewhere && askedElsewhere_.view == request.view &&
+      isSameView(askedElsewhere_.elsewhere->camera, view.elsewhere) &&
+      askedElsewhere_.elsewhere->options == request.elsewhere->options)
+    return;
+  askedElsewhere_ = request;
+  drawer_.ask(std::move(request));
 }
 
 void ViewerLoop::askForMaps() {

@@ -85,6 +85,16 @@ class Editing(WindowTest):
         self.assertEqual(viewer.end(), 1)
         self.assertEqual(viewer.count("catoptric: error: .*'Plank'"), 1, viewer.said())
 
+    def test_inside_the_method(self):
+        viewer = self.view("scene.gltf", "--size", "700x560", "--camera", "front", "--method", "zexel")
+        viewer.wait_for_window()
+        viewer.wait_for_line(SETTLED)
+        viewer.after("from elsewhere", lambda: viewer.do("key", "i"))
+        viewer.after("from elsewhere", lambda: viewer.drag((400, 400), (450, 420)))  # the second camera alone moves
+        self.assertEqual(viewer.count(SETTLED), 1, viewer.said())
+        viewer.do("key", "i")
+        self.close(viewer)
+
     def test_time_plays_and_frames_are_recorded(self):
         self.write("scene.gltf", json.dumps(motion_test.make_moving()).encode())
         viewer = self.view("scene.gltf", "--size", "160x120", "--camera", "front", "--time", "1")
