@@ -93,6 +93,7 @@ void ViewerLoop::takeResults() {
     } catch (const std::exception& error) {
       if (!model_.loaded.scene) throw;
       tell(error.what(), true);
+      options_.sayDetail(std::string("failed: ") + error.what());
     }
   };
   attempt([&] {
