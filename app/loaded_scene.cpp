@@ -86,9 +86,7 @@ void forbidReflectors(scene::Scene& scene) {
 /// Brings the scene to the time that was asked for.
 void startMotion(LoadedScene& loaded, const SceneOptions& options) {
   if (!options.timeS && options.animation.empty()) return;
-  if (loaded.scene.motion.isEmpty())
-    throw core::Error("animation.none", "'" + loaded.source + "' has no animations", {},
-                      "leave --time, --animation and --frames out");
+  checkMotion(loaded, options);
   loaded.motion = std::make_unique<scene::WorldMotion>(loaded.scene, loaded.geometry, options.reflectors,
                                                        options.animation);
   loaded.motion->setTime(options.timeS.value_or(0.0));
@@ -132,10 +130,18 @@ std::unique_ptr<LoadedScene> loadScene(const std::string& source, const SceneOpt
   sayWarnings(loaded->scene);
   if (options.noReflectors) forbidReflectors(loaded->scene);
   loaded->geometry = scene::makeWorldGeometry(loaded->scene, options.reflectors);
+  loaded->reflectorOptions = options.reflectors;
+  loaded->animation = options.animation;
   startMotion(*loaded, options);
   sayDetail(fmt::format("{}: {} triangles, {} reflectors", source, loaded->geometry.triangleCount(),
                         loaded->geometry.reflectors.size()));
   return loaded;
+}
+
+void checkMotion(const LoadedScene& loaded, const SceneOptions& options) {
+  if ((options.timeS || !options.animation.empty()) && loaded.scene.motion.isEmpty())
+    throw core::Error("animation.none", "'" + loaded.source + "' has no animations", {},
+                      "leave --time, --animation and --frames out");
 }
 
 void checkSource(const std::string& source) {

@@ -24,6 +24,8 @@ struct LoadedScene {
   bool isBuiltIn = false;
   scene::Scene scene;
   scene::WorldGeometry geometry;
+  scene::ReflectorOptions reflectorOptions;    ///< that the geometry was made with
+  std::string animation;                       ///< --animation
   std::unique_ptr<scene::WorldMotion> motion;  ///< null in the rest pose
   scene::Environment environment;              ///< empty until loadEnvironment()
 };
@@ -31,6 +33,9 @@ struct LoadedScene {
 /// `source`: a file, "-" for a .glb on stdin, or a built-in scene's name; a file wins. Says the scene's
 /// warnings.
 [[nodiscard]] std::unique_ptr<LoadedScene> loadScene(const std::string& source, const SceneOptions& options);
+
+/// Throws for --time and --animation of a scene that has none.
+void checkMotion(const LoadedScene& loaded, const SceneOptions& options);
 
 /// Throws if there is no such file or built-in scene; for commands that take several scenes and long for
 /// each.

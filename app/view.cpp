@@ -7,9 +7,11 @@
 #include <memory>
 
 #include "catoptric/core/error.h"
+#include "catoptric/scene/pose.h"
 #include "commands.h"
 #include "method_variant.h"
 #include "option_values.h"
+#include "session_file.h"
 #include "shared_options.h"
 #include "terminal.h"
 #include "viewer/viewer.h"
@@ -20,7 +22,7 @@ namespace {
 constexpr const char* kFirstScene = "four-spheres";  // opened when nothing is named
 
 struct Options {
-  std::string source;
+  std::string source, session;
   bool plainMap = false, watch = false;
   SceneOptions scene;
   CameraOptions camera;
@@ -79,24 +81,67 @@ void listVariants(viewer::ViewerOptions& viewer) {
 
 /// What the viewer's loading thread calls.
 viewer::LoadResult load(const Options& options, const viewer::LoadRequest& request) {
+  const bool isFirst = request.source == options.source;
   SceneOptions sceneOptions = options.scene;
   sceneOptions.reflectors.only = request.mirrors;
   sceneOptions.noReflectors = request.noReflectors;
+  sceneOptions.timeS.reset();  // the viewer itself moves its scenes
+  sceneOptions.animation.clear();
   std::shared_ptr<LoadedScene> loaded = loadScene(request.source, sceneOptions);
   loadEnvironment(*loaded, request.environment);
   viewer::LoadResult result;
   result.request = request;
+  if (isFirst) {
+    checkMotion(*loaded, options.scene);
+    loaded->animation = options.scene.animation;
+    result.timeS = options.scene.timeS;
+  }
+  result.durationS = scene::chooseAnimations(loaded->scene.motion, loaded->animation).durationS;
   // A camera that was named on the command line belongs to the first scene; others have their own.
-  result.camera = chooseCamera(*loaded, request.source == options.source ? options.camera : CameraOptions{});
+  result.camera = chooseCamera(*loaded, isFirst ? options.camera : CameraOptions{});
   result.reflectors = loaded->geometry.reflectors;
   result.scene = std::move(loaded);
   return result;
 }
 
+/// Reads the session, as if its scene and options had been typed.
+viewer::Session openSession(Options& options) {
+  if (!options.source.empty())
+    throw UsageError("--session: the session names its scene, '" + options.source + "' is one too many");
+  viewer::Session session = readSession(options.session);
+  options.source = session.scene.source;
+  options.scene = {};
+  const Command words{.name = "view",
+                      .summary = {},
+                      .examples = {},
+                      .declare = [&](Arguments& arguments) { declareScene(arguments, options.scene); },
+                      .run = {}};
+  try {
+    std::vector<std::string> line{"view"};
+    line.insert(line.end(), session.sceneOptions.begin(), session.sceneOptions.end());
+    (void)parseArguments({words}, line);
+  } catch (const UsageError& error) {
+    throw core::Error("session.invalid",
+                      fmt::format("'{}': /scene_options: {}", options.session, error.what()),
+                      "/scene_options", error.hint());
+  }
+  options.scene.reflectors.only = session.scene.mirrors;
+  options.scene.noReflectors = session.scene.noReflectors;
+  options.scene.animation = session.animation;
+  options.scene.timeS = session.state.timeS;
+  options.frame.environment = session.scene.environment;
+  options.frame.frame = session.frame;
+  options.frame.exposure = session.exposure;
+  options.plainMap = !session.frame.boxCorrected;
+  options.camera = {};
+  return session;
+}
+
 int run(Options options, const std::vector<std::string>& line) {
   applyOutput(options.output);
-  if (options.source == "-" && options.watch) throw UsageError("--watch: standard input cannot be watched");
   viewer::ViewerOptions viewer;
+  if (!options.session.empty()) viewer.session = openSession(options);
+  if (options.source == "-" && options.watch) throw UsageError("--watch: standard input cannot be watched");
   if (options.source.empty()) options.source = kFirstScene;
   if (std::filesystem::is_directory(options.source)) {
     viewer.files = listScenes(options.source);
@@ -112,7 +157,9 @@ int run(Options options, const std::vector<std::string>& line) {
   viewer.frame.boxCorrected = !options.plainMap;
   viewer.exposure = options.frame.exposure;
   viewer.watch = options.watch;
-  viewer.sceneOptions = findSceneOptions(line);
+  viewer.sceneOptions = viewer.session ? viewer.session->sceneOptions : findSceneOptions(line);
+  viewer.sessionFile = options.session;
+  viewer.saveSession = writeSession;
   viewer.load = [&options](const viewer::LoadRequest& request) { return load(options, request); };
   viewer.say = say;
   viewer.sayDetail = sayDetail;
@@ -132,7 +179,8 @@ Command makeViewCommand() {
               "  catoptric view four-spheres\n"
               "  catoptric view car.glb --watch\n"
               "  catoptric car.glb\n"
-              "  catoptric view scenes/ --method virtual --solver explosion\n",
+              "  catoptric view scenes/ --method virtual --solver explosion\n"
+              "  catoptric view --session four-spheres-0001.session.json\n",
           .declare =
               [options](Arguments& arguments) {
                 arguments.positional("SCENE",
@@ -140,6 +188,9 @@ Command makeViewCommand() {
                                      Arguments::Count::AtMostOne, setText(options->source));
                 arguments.group("Viewer");
                 arguments.flag("--watch", "Load the file again when it changes", options->watch);
+                arguments.option("--session", "FILE", "Return to what ctrl-S has saved",
+                                 setText(options->session));
+                declareMotion(arguments, options->scene);
                 declareMethod(arguments, options->frame.frame, options->plainMap);
                 declarePicture(arguments, options->frame);
                 declareCamera(arguments, options->camera);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "catoptric/core/file.h"
+#include "catoptric/core/image_io.h"
 #include "catoptric/core/tone_map.h"
 #include "viewer/jobs.h"
 
@@ -15,27 +17,34 @@ struct Pass {
 };
 constexpr Pass kPasses[kTruthPasses] = {{4, 1}, {2, 1}, {1, 1}, {1, 4}, {1, 16}};
 
-/// The renderer of the scene that was asked for last. It refers to the scene, so it goes first.
-struct KeptRenderer {
-  ScenePointer scene;
-  std::unique_ptr<renderer::Renderer> renderer;
-
-  renderer::Frame render(const ScenePointer& wanted, const scene::Camera& camera,
-                         const renderer::FrameOptions& options) {
-    if (scene != wanted || !renderer) {
-      renderer.reset();
-      scene = wanted;
-      renderer = std::make_unique<renderer::Renderer>(scene->scene, scene->geometry, scene->environment);
-    }
-    try {
-      return renderer->render(camera, options);
-    } catch (...) {
-      renderer.reset();  // a lost context stays lost: the next frame makes a new one
-      throw;
-    }
+renderer::Frame render(KeptRenderer& kept, const FrameRequest& view, const renderer::FrameOptions& options) {
+  try {
+    return kept.prepare(view.scene, view.state).render(view.camera, options);
+  } catch (...) {
+    kept.drop();
+    throw;
   }
-  ~KeptRenderer() { renderer.reset(); }
-};
+}
+
+void record(const FrameResult& result) {
+  if (result.request.recordFile.empty()) return;
+  core::writeFileAtomically(result.request.recordFile,
+                            std::span<const std::byte>(core::encodePng(result.picture)));
+}
+
+/// The renderer still has the frame that is asked about: it is the same thread's.
+FrameResult drawElsewhere(KeptRenderer& kept, FrameResult result) {
+  const ElsewhereRequest& elsewhere = *result.request.elsewhere;
+  try {
+    renderer::Renderer& renderer = kept.prepare(result.request.scene, result.request.state);
+    result.picture =
+        core::toneMap(renderer.renderElsewhere(elsewhere.camera, elsewhere.options), result.request.exposure);
+  } catch (...) {
+    kept.drop();
+    throw;
+  }
+  return result;
+}
 
 TruthResult judge(const TruthRequest& request, const renderer::Frame& truth, TruthResult result) {
   const renderer::Frame& method = *request.method.frame;
@@ -59,11 +68,17 @@ FrameWorker::Work makeFrameWork() {
     const auto start = std::chrono::steady_clock::now();
     FrameResult result;
     result.request = request;
-    result.frame =
-        std::make_shared<const renderer::Frame>(kept->render(request.scene, request.camera, request.options));
+    if (request.elsewhere) return drawElsewhere(*kept, std::move(result));
+    if (request.sceneCamera) {
+      (void)kept->prepare(request.scene, request.state);
+      result.request.camera = kept->posed().scene().cameras.at(*request.sceneCamera);
+    }
+    result.frame = std::make_shared<const renderer::Frame>(render(*kept, result.request, request.options));
+    if (request.options.withSeen) result.geometry = kept->posed().snapshot();
     result.picture = core::toneMap(result.frame->radiance, request.exposure);
     result.wholeMs =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    record(result);
     return result;
   };
 }
@@ -79,7 +94,7 @@ TruthWorker::Work makeTruthWork() {
     options.samples = pass.samples;
     options.withSeen = pass.divisor == 1 && pass.samples == 1;
     options.cancel = request.cancel.get();
-    const renderer::Frame truth = kept->render(view.scene, view.camera, options);
+    const renderer::Frame truth = render(*kept, view, options);
     TruthResult result;
     result.view = view.view;
     result.pass = request.pass;

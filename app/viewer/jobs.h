@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -14,12 +15,10 @@
 #include "catoptric/metrics/displacement.h"
 #include "catoptric/metrics/image_difference.h"
 #include "catoptric/renderer/frame.h"
-#include "loaded_scene.h"
+#include "viewer/posed_scene.h"
 #include "viewer/worker.h"
 
 namespace catoptric::viewer {
-
-using ScenePointer = std::shared_ptr<const app::LoadedScene>;
 
 struct LoadRequest {
   std::string source, environment;   ///< as on the command line; no environment = the built-in sky
@@ -33,22 +32,36 @@ struct LoadResult {
   ScenePointer scene;
   scene::Camera camera;                      ///< where the command line puts it
   std::vector<scene::Reflector> reflectors;  ///< all that the scene has, also when only some are mirrors now
+  double durationS = 0;                      ///< of its animations; 0: none
+  std::optional<double> timeS;               ///< to begin at; absent: the rest pose
+};
+
+struct ElsewhereRequest {
+  scene::Camera camera;
+  renderer::ElsewhereOptions options;
 };
 
 struct FrameRequest {
   ScenePointer scene;
+  SceneState state;
   scene::Camera camera;
+  std::optional<std::size_t> sceneCamera;  ///< the eye moves with this camera of the scene instead
   renderer::FrameOptions options;
   float exposure = 1;
-  std::uint64_t view = 0;  ///< counts what the user has changed
-  double scale = 1;        ///< of the full resolution
+  std::uint64_t view = 0;                           ///< counts what the user has changed
+  std::chrono::steady_clock::time_point changed{};  ///< the first change that no frame before it shows
+  double scale = 1;                                 ///< of the full resolution
+  std::string recordFile;                           ///< write the picture there; empty: do not
+  /// Instead of a frame: what the last one worked with, from another camera.
+  std::optional<ElsewhereRequest> elsewhere;
 };
 
 struct FrameResult {
-  FrameRequest request;
+  FrameRequest request;  ///< its camera is where the eye was
   std::shared_ptr<const renderer::Frame> frame;
-  core::ImageRgba8 picture;
-  double wholeMs = 0;  ///< from request to picture, with reading back and tone mapping
+  GeometryPointer geometry;  ///< as drawn; only where the frame says what is seen
+  core::ImageRgba8 picture;  ///< or that from elsewhere
+  double wholeMs = 0;        ///< from request to picture, with reading back and tone mapping
 };
 
 struct TruthRequest {
@@ -68,15 +81,21 @@ struct TruthResult {
 };
 
 struct MapsRequest {
-  ScenePointer scene;
+  GeometryPointer geometry;
   dvec3 eye{0};
   std::uint32_t reflector = 0;
+};
+
+/// Shares of a map's width and height, from the lower left corner; outside 0..1 it is not on the map.
+struct MapPlaces {
+  dvec2 explosion{0}, hidden{0};
 };
 
 struct MapsResult {
   MapsRequest request;
   bool canReflect = false;  ///< false: flat, or the eye sees none of its front
   core::ImageRgba8 nearMap, farMap, hiddenMap;
+  std::function<MapPlaces(const dvec3& point)> findPlaces;  ///< where a scene point is looked up
   std::size_t triangles = 0;
 };
 

@@ -9,14 +9,25 @@
 #include <vector>
 
 #include "method_variant.h"
+#include "viewer/dragging.h"
 #include "viewer/jobs.h"
 
 namespace catoptric::viewer {
 
 enum class Comparison : std::uint8_t { None, Split, Difference, Displacement };
 
+/// What an edit goes to.
+struct Selected {
+  std::uint32_t instance = 0;
+  int material = -1;
+};
+
 struct ViewState {
   scene::Camera camera, firstCamera;
+  std::optional<std::size_t> sceneCamera;  ///< of the scene, which the eye moves with; `camera` follows it
+  SceneState state;
+  bool isPlaying = false;
+  std::optional<Selected> selected;
   std::size_t variant = 0;       ///< row of Model::variants
   renderer::FrameOptions frame;  ///< method and solver are the variant's, the size is the window's
   float exposure = 1;
@@ -24,7 +35,10 @@ struct ViewState {
   Comparison comparison = Comparison::None;
   float split = 0.5f;  ///< where the line is, share of the width
   bool showPanels = true, showHelp = false;
-  std::optional<std::uint32_t> mapsOf;  ///< reflector whose explosion maps are shown
+  std::optional<std::uint32_t> mapsOf;    ///< reflector whose explosion maps are shown
+  std::optional<std::uint32_t> insideOf;  ///< and whose method is looked at from elsewhere ...
+  scene::Camera elsewhere;                ///< ... by this camera
+  raster::MarkOptions marks;
 };
 
 /// What is under the mouse.
@@ -49,9 +63,23 @@ struct FrameHistory {
   [[nodiscard]] const Entry* newest() const { return count == 0 ? nullptr : &entries[(count - 1) % kFrames]; }
 };
 
+/// An object that is being moved.
+struct Drag {
+  std::uint32_t instance = 0;
+  dvec3 point{0};   ///< where it was taken, as moved so far
+  dvec3 before{0};  ///< its shift at the start
+};
+
+/// Pictures of each frame, numbered, in a folder of their own.
+struct Recording {
+  std::string folder;
+  int frames = 0;  ///< asked for so far
+};
+
 /// Done once by the viewer, then cleared.
 struct Wishes {
   bool screenshot = false, copyCommand = false, close = false, viewChanged = false;
+  bool undo = false, redo = false, saveSession = false, record = false;
   std::optional<LoadRequest> load;
 };
 
@@ -62,7 +90,14 @@ struct Model {
   std::vector<std::string> files;  ///< of a folder, to step through
   std::vector<std::string> sceneOptions;
 
-  LoadResult loaded;  ///< its scene is null before the first is there
+  LoadResult loaded;         ///< its scene is null before the first is there
+  GeometryPointer geometry;  ///< as in the last frame at rest, and the state it was in
+  SceneState geometryState;
+  EditHistory edits;
+  std::optional<Drag> drag;
+  dvec3 shiftBefore{0};  ///< of the value in a panel that is being changed
+  scene::MaterialValues materialBefore;
+  std::optional<Recording> recording;
   bool isLoading = false, isDrawing = false, isTracing = false;
   FrameResult frame;  ///< its picture is what is shown
   std::optional<TruthResult> truth;

@@ -7,12 +7,16 @@
 #include <algorithm>
 
 #include "viewer/camera_control.h"
+#include "viewer/edit_panel.h"
 #include "viewer/input.h"
+#include "viewer/inside_panel.h"
 #include "viewer/scene_panels.h"
 #include "viewer/time_graph.h"
 
 namespace catoptric::viewer {
 namespace {
+
+constexpr float kPanelWidth = 320;
 
 void showText(const std::string& text) {
   ImGui::TextUnformatted(text.c_str());
@@ -80,6 +84,7 @@ void drawCamera(Model& model) {
         ImGui::PushID(int(i));
         if (ImGui::Selectable(cameras[i].name.c_str(), isSameView(cameras[i], model.view.camera))) {
           model.view.camera = cameras[i];
+          model.view.sceneCamera = cameras[i].node >= 0 ? std::optional(i) : std::nullopt;
           model.wishes.viewChanged = true;
         }
         ImGui::PopID();
@@ -88,9 +93,14 @@ void drawCamera(Model& model) {
     }
     ImGui::PopItemWidth();
   }
+  if (ImGui::Button("inside the method (I)")) switchInside(model);
   if (ImGui::Button("screenshot (F12)")) model.wishes.screenshot = true;
   ImGui::SameLine();
   if (ImGui::Button("copy command (ctrl-C)")) model.wishes.copyCommand = true;
+  if (ImGui::Button(model.recording ? "stop recording (shift-F12)" : "record (shift-F12)"))
+    model.wishes.record = true;
+  ImGui::SameLine();
+  if (ImGui::Button("save session (ctrl-S)")) model.wishes.saveSession = true;
 }
 
 void drawPicked(const Model& model) {
@@ -106,9 +116,11 @@ void drawPicked(const Model& model) {
         "{}\nat {:.3f} {:.3f} {:.3f}, way {:.3f} m",
         seen.object < scene.scene.instances.size() ? scene.scene.instances[seen.object].name : "?",
         seen.point.x, seen.point.y, seen.point.z, seen.pathLength);
-  if (seen.isMirror() && seen.firstReflector < scene.geometry.reflectors.size())
-    text += fmt::format("\nin {} after {} bounce{}", scene.geometry.reflectors[seen.firstReflector].name,
-                        seen.bounces, seen.bounces == 1 ? "" : "s");
+  if (seen.isMirror() && model.frame.geometry &&
+      seen.firstReflector < model.frame.geometry->reflectors.size())
+    text +=
+        fmt::format("\nin {} after {} bounce{}", model.frame.geometry->reflectors[seen.firstReflector].name,
+                    seen.bounces, seen.bounces == 1 ? "" : "s");
   if (picked.reflectionPoint)
     text += fmt::format("\nreflected at {:.3f} {:.3f} {:.3f}", picked.reflectionPoint->x,
                         picked.reflectionPoint->y, picked.reflectionPoint->z);
@@ -161,13 +173,19 @@ void drawMain(Model& model) {
   const std::string title = model.loaded.scene->name + "###catoptric";
   if (ImGui::Begin(title.c_str(), nullptr,
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
+    ImGui::PushTextWrapPos(kPanelWidth);
     drawMethod(model);
     drawCamera(model);
     if (ImGui::CollapsingHeader("against the truth", ImGuiTreeNodeFlags_DefaultOpen)) drawComparison(model);
     if (ImGui::CollapsingHeader("under the mouse")) drawPicked(model);
+    if (ImGui::CollapsingHeader("edit", model.view.selected ? ImGuiTreeNodeFlags_DefaultOpen : 0))
+      drawSelected(model);
+    if (model.loaded.durationS > 0 && ImGui::CollapsingHeader("animation", ImGuiTreeNodeFlags_DefaultOpen))
+      drawAnimation(model);
     if (ImGui::CollapsingHeader("time", ImGuiTreeNodeFlags_DefaultOpen)) drawTimes(model);
     if (ImGui::CollapsingHeader("mirrors")) drawReflectors(model);
     if (ImGui::Button("help (H)")) model.view.showHelp = !model.view.showHelp;
+    ImGui::PopTextWrapPos();
   }
   ImGui::End();
 }
@@ -178,6 +196,7 @@ void drawPanels(Model& model, const MapPictures& maps) {
   if (model.loaded.scene && model.view.showPanels) {
     drawMain(model);
     drawMaps(model, maps);
+    drawInside(model, maps.inside);
   }
   if (model.view.showHelp) drawHelp(model);
   drawStatus(model);

@@ -9,7 +9,7 @@ namespace catoptric::viewer {
 
 /// Pictures that panels show; the viewer fills them.
 struct MapPictures {
-  ShownPicture nearMap, farMap, hiddenMap;
+  ShownPicture nearMap, farMap, hiddenMap, inside;
 };
 
 /// Between Window::beginFrame() and endFrame().

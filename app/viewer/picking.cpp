@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "catoptric/scene/camera_frame.h"
+#include "viewer/triangle_hit.h"
 
 namespace catoptric::viewer {
 namespace {
@@ -16,25 +17,17 @@ struct MirrorHit {
   dvec3 normal;
 };
 
-/// Möller and Trumbore 1997 over the triangles of one mirror: some ten thousand at most, once a mouse move.
+/// Over the triangles of one mirror: some ten thousand at most, once a mouse move.
 std::optional<MirrorHit> hitMirror(const scene::WorldGeometry& world, std::uint32_t reflector,
                                    const dvec3& eye, const dvec3& direction) {
   const scene::Part& part = world.parts[world.reflectors[reflector].part];
   std::optional<MirrorHit> nearest;
   for (std::uint32_t i = part.firstIndex; i < part.firstIndex + part.indexCount; i += 3) {
-    const std::uint32_t corners[3] = {world.indices[i], world.indices[i + 1], world.indices[i + 2]};
-    const dvec3 a = dvec3(world.positions[corners[0]]);
-    const dvec3 ab = dvec3(world.positions[corners[1]]) - a, ac = dvec3(world.positions[corners[2]]) - a;
-    const dvec3 p = glm::cross(direction, ac);
-    const double determinant = glm::dot(ab, p);
-    if (std::abs(determinant) < 1e-30) continue;
-    const dvec3 q = glm::cross(eye - a, ab);
-    const double u = glm::dot(eye - a, p) / determinant, v = glm::dot(direction, q) / determinant;
-    const double distance = glm::dot(ac, q) / determinant;
-    if (u < 0 || v < 0 || u + v > 1 || distance <= 0 || (nearest && nearest->distance <= distance)) continue;
-    const dvec3 normal = (1 - u - v) * dvec3(world.normals[corners[0]]) +
-                         u * dvec3(world.normals[corners[1]]) + v * dvec3(world.normals[corners[2]]);
-    nearest = MirrorHit{distance, glm::normalize(normal)};
+    const auto hit = hitTriangle(world, i, eye, direction);
+    if (!hit || (nearest && nearest->distance <= hit->distance)) continue;
+    const auto normalAt = [&](std::uint32_t k) { return dvec3(world.normals[world.indices[i + k]]); };
+    const dvec3 normal = (1 - hit->u - hit->v) * normalAt(0) + hit->u * normalAt(1) + hit->v * normalAt(2);
+    nearest = MirrorHit{hit->distance, glm::normalize(normal)};
   }
   return nearest;
 }
@@ -49,11 +42,11 @@ std::optional<Picked> pick(const FrameResult& frame, const dvec2& at) {
   Picked picked;
   picked.pixel = ivec2(int(at.x * seen.width()), int(at.y * seen.height()));
   picked.seen = seen.at(picked.pixel.x, picked.pixel.y);
-  if (!picked.seen.isMirror()) return picked;
+  if (!picked.seen.isMirror() || !frame.geometry) return picked;
   // 2
   const scene::CameraFrame view = scene::makeCameraFrame(frame.request.camera, seen.width(), seen.height());
   const dvec3 direction = glm::normalize(view.rayDirection(picked.pixel.x + 0.5, picked.pixel.y + 0.5));
-  const auto hit = hitMirror(frame.request.scene->geometry, picked.seen.firstReflector, view.eye, direction);
+  const auto hit = hitMirror(*frame.geometry, picked.seen.firstReflector, view.eye, direction);
   if (!hit) return picked;
   picked.reflectionPoint = view.eye + hit->distance * direction;
   // 3

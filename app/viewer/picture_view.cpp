@@ -26,6 +26,26 @@ void drawCaption(ImDrawList* list, ImVec2 at, const char* text) {
   list->AddText(at, kWhite, text);
 }
 
+/// The box of the picked object.
+void drawSelection(const Model& model, ImDrawList* list, ImVec2 size) {
+  if (!model.view.selected || !model.geometry || !model.view.showPanels || model.view.isPlaying) return;
+  const std::uint32_t instance = model.view.selected->instance;
+  // The geometry is that of the last frame at rest; the box is where the object has been taken to since.
+  const dvec3 shift = model.view.state.shiftOf(instance) - model.geometryState.shiftOf(instance);
+  const auto corners = findBoxInPicture(*model.geometry, instance, shift, model.view.camera,
+                                        double(size.x) / std::max(size.y, 1.0f));
+  if (!corners) return;
+  for (std::size_t a = 0; a < 8; ++a)
+    for (const std::size_t bit : {1u, 2u, 4u}) {
+      const std::size_t b = a | bit;
+      if (b == a) continue;
+      const auto at = [&](std::size_t k) {
+        return ImVec2(float((*corners)[k].x) * size.x, float((*corners)[k].y) * size.y);
+      };
+      list->AddLine(at(a), at(b), IM_COL32(255, 190, 60, 160));
+    }
+}
+
 void drawSplit(const Model& model, const ShownPictures& pictures, ImDrawList* list, ImVec2 size) {
   const float line = model.view.split * size.x;
   list->AddImage(pictures.truth.imguiId(), ImVec2(line, 0), size, ImVec2(model.view.split, 0), ImVec2(1, 1));
@@ -50,6 +70,7 @@ void drawPicture(const Model& model, const ShownPictures& pictures, const ivec2&
                                 : shown == Comparison::Displacement ? pictures.displacement
                                                                     : pictures.method;
   list->AddImage(picture.imguiId(), corner, size);
+  drawSelection(model, list, size);
   if (shown == Comparison::Split) drawSplit(model, pictures, list, size);
   if (shown == Comparison::Difference)
     drawCaption(list, ImVec2(10, size.y - 60), "difference from the truth, 8 x");

@@ -8,12 +8,15 @@
 
 namespace catoptric::viewer {
 
-/// Steps down when a frame took too long, up when there is room; the gap between the two limits keeps it from
-/// going to and fro. Few steps, since each one allocates its targets anew.
+/// Starts coarse, so that the first picture is soon there. Steps down when a frame took too long, up when
+/// there is room: at once to where a time in proportion to the number of pixels allows, which is on the safe
+/// side since some of it is fixed. The gap between the two limits keeps it from going to and fro. Few steps,
+/// since each one allocates its targets anew.
 class MovingResolution {
  public:
   static constexpr double kTooSlowMs = 66;  ///< 15 frames a second
   static constexpr double kRoomMs = 28;     ///< the next step has about twice as many pixels
+  static constexpr double kAimMs = 56;      ///< of a step up
   static constexpr std::array<double, 5> kScales{1.0, 0.7, 0.5, 0.35, 0.25};
 
   /// What a frame that was drawn at `scale` took.
@@ -24,13 +27,16 @@ class MovingResolution {
       const double wanted = scale * std::max(0.5, std::min(1.0, kTooSlowMs / frameMs));
       while (step_ + 1 < kScales.size() && kScales[step_] > wanted) ++step_;
     } else if (frameMs < kRoomMs && step_ > 0) {
-      --step_;
+      do --step_;
+      while (step_ > 0 && frameMs * square(kScales[step_ - 1] / scale) <= kAimMs);
     }
   }
   [[nodiscard]] double scale() const { return kScales[step_]; }
 
  private:
-  std::size_t step_ = 0;
+  static constexpr double square(double x) { return x * x; }
+
+  std::size_t step_ = 3;
 };
 
 }  // namespace catoptric::viewer

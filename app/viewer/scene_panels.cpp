@@ -5,6 +5,9 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <utility>
+
+#include "viewer/inside_panel.h"
 
 namespace catoptric::viewer {
 namespace {
@@ -18,7 +21,7 @@ std::string describeShape(const scene::Reflector& reflector) {
 }
 
 bool isMirrorNow(const Model& model, const std::string& name) {
-  const auto& now = model.loaded.scene->geometry.reflectors;
+  const auto& now = model.geometry->reflectors;
   return std::any_of(now.begin(), now.end(), [&](const scene::Reflector& r) { return r.name == name; });
 }
 
@@ -52,32 +55,59 @@ void drawReflectorRow(Model& model, const scene::Reflector& reflector) {
                 .c_str());
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", choice.reason.c_str());
   ImGui::TableNextColumn();
-  if (on && reflector.shape != scene::ReflectorShape::Plane && ImGui::SmallButton("maps")) {
-    const auto& now = model.loaded.scene->geometry.reflectors;
-    for (std::size_t i = 0; i < now.size(); ++i)
-      if (now[i].name == reflector.name) model.view.mapsOf = std::uint32_t(i);
-  }
+  if (!on) return;
+  const auto& now = model.geometry->reflectors;
+  const auto found = std::find_if(now.begin(), now.end(),
+                                  [&](const scene::Reflector& r) { return r.name == reflector.name; });
+  const auto index = std::uint32_t(found - now.begin());
+  if (found == now.end()) return;
+  if (ImGui::SmallButton("inside")) lookInside(model, index);
+  ImGui::SameLine();
+  if (reflector.shape != scene::ReflectorShape::Plane && ImGui::SmallButton("maps"))
+    model.view.mapsOf = index;
 }
 
-void drawMap(const char* title, const ShownPicture& picture) {
+/// `place`: of the point under the mouse, share of the map from its lower left corner.
+void drawMap(const char* title, const ShownPicture& picture, const std::optional<dvec2>& place) {
   ImGui::BeginGroup();
   ImGui::TextUnformatted(title);
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
   if (!picture.isEmpty())
     ImGui::Image(picture.imguiId(), ImVec2(kMapEdge, kMapEdge), ImVec2(0, 1), ImVec2(1, 0));
+  if (place && glm::all(glm::greaterThanEqual(*place, dvec2(0))) &&
+      glm::all(glm::lessThanEqual(*place, dvec2(1)))) {
+    const ImVec2 at(corner.x + float(place->x) * kMapEdge, corner.y + float(1 - place->y) * kMapEdge);
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    for (const auto& [color, width] : {std::pair(IM_COL32(0, 0, 0, 255), 3.0f), {IM_COL32_WHITE, 1.0f}}) {
+      list->AddLine(ImVec2(at.x - 7, at.y), ImVec2(at.x + 7, at.y), color, width);
+      list->AddLine(ImVec2(at.x, at.y - 7), ImVec2(at.x, at.y + 7), color, width);
+    }
+  }
   ImGui::EndGroup();
+}
+
+/// Of the scene point that is seen, directly or in mirrors.
+std::optional<MapPlaces> findPlaces(const Model& model) {
+  if (!model.picked || model.picked->seen.isSky() || !model.maps->findPlaces) return std::nullopt;
+  return model.maps->findPlaces(dvec3(model.picked->seen.point));
 }
 
 }  // namespace
 
 void drawReflectors(Model& model) {
-  if (model.loaded.reflectors.empty()) return ImGui::TextUnformatted("the scene has no mirrors");
+  std::vector<scene::Reflector> reflectors = model.loaded.reflectors;
+  for (const scene::Reflector& now : model.geometry->reflectors)  // and those that an edit has made
+    if (std::none_of(reflectors.begin(), reflectors.end(),
+                     [&](const scene::Reflector& known) { return known.name == now.name; }))
+      reflectors.push_back(now);
+  if (reflectors.empty()) return ImGui::TextUnformatted("the scene has no mirrors");
   if (!ImGui::BeginTable("mirrors", 4,
                          ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingFixedFit,
-                         ImVec2(420, std::min(220.0f, 28.0f * float(model.loaded.reflectors.size()) + 8.0f))))
+                         ImVec2(420, std::min(220.0f, 28.0f * float(reflectors.size()) + 8.0f))))
     return;
-  for (std::size_t i = 0; i < model.loaded.reflectors.size(); ++i) {
+  for (std::size_t i = 0; i < reflectors.size(); ++i) {
     ImGui::PushID(int(i));
-    drawReflectorRow(model, model.loaded.reflectors[i]);
+    drawReflectorRow(model, reflectors[i]);
     ImGui::PopID();
   }
   ImGui::EndTable();
@@ -92,10 +122,10 @@ void drawMaps(Model& model, const MapPictures& maps) {
   ImGui::SetNextWindowBgAlpha(0.9f);
   if (ImGui::Begin("explosion maps", &isShown,
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
-    const auto& reflectors = model.loaded.scene->geometry.reflectors;
+    const auto& reflectors = model.geometry->reflectors;
     if (*model.view.mapsOf < reflectors.size())
       ImGui::TextUnformatted(reflectors[*model.view.mapsOf].name.c_str());
-    if (model.maps && model.maps->request.scene == model.loaded.scene &&
+    if (model.maps && model.maps->request.geometry == model.geometry &&
         model.maps->request.reflector == *model.view.mapsOf) {
       if (!model.maps->canReflect) {
         ImGui::TextUnformatted("flat, or the eye sees none of its front: it has no maps");
@@ -103,11 +133,14 @@ void drawMaps(Model& model, const MapPictures& maps) {
         ImGui::TextUnformatted(
             fmt::format("{} triangles, a colour each; dim: extension polygons", model.maps->triangles)
                 .c_str());
-        drawMap("near", maps.nearMap);
+        const std::optional<MapPlaces> places = findPlaces(model);
+        const auto onSphere = places ? std::optional(places->explosion) : std::nullopt;
+        drawMap("near", maps.nearMap, onSphere);
         ImGui::SameLine();
-        drawMap("far", maps.farMap);
+        drawMap("far", maps.farMap, onSphere);
         ImGui::SameLine();
-        drawMap("hidden", maps.hiddenMap);
+        drawMap("hidden", maps.hiddenMap, places ? std::optional(places->hidden) : std::nullopt);
+        ImGui::TextUnformatted("cross: where the scene point under the mouse is looked up");
       }
     } else {
       ImGui::TextUnformatted("...");

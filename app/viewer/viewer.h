@@ -8,6 +8,7 @@
 
 #include "method_variant.h"
 #include "viewer/jobs.h"
+#include "viewer/session.h"
 
 namespace catoptric::viewer {
 
@@ -20,6 +21,9 @@ struct ViewerOptions {
   std::vector<app::MethodVariant> variants;
   std::size_t variant = 0;                ///< the one to start with
   std::vector<std::string> sceneOptions;  ///< as typed, for the command line that is copied
+  std::optional<Session> session;         ///< to return to; its scene is `scene`
+  std::string sessionFile;                ///< where ctrl-S goes; empty: a new file each time
+  std::function<void(const std::string& file, const Session&)> saveSession;
   Load load;
   /// Reports that are not the window's business: first picture, screenshots, copied commands.
   std::function<void(const std::string&)> sayDetail, say, printLine;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "viewer/camera_control.h"
 #include "viewer/input.h"
 
 namespace catoptric::viewer {
@@ -18,6 +19,15 @@ constexpr int kDrawsAfterEvent = 3;
 
 double secondsSince(ViewerLoop::Clock::time_point start) {
   return std::chrono::duration<double>(ViewerLoop::Clock::now() - start).count();
+}
+
+/// Then edits, which go by number, still mean the same.
+bool hasSameThings(const scene::Scene& a, const scene::Scene& b) {
+  const auto isSameName = [](const auto& x, const auto& y) { return x.name == y.name; };
+  return std::equal(a.instances.begin(), a.instances.end(), b.instances.begin(), b.instances.end(),
+                    isSameName) &&
+         std::equal(a.materials.begin(), a.materials.end(), b.materials.begin(), b.materials.end(),
+                    isSameName);
 }
 
 }  // namespace
@@ -55,10 +65,12 @@ void ViewerLoop::run() {
     drawPanels(model_, maps_);
     handleInput(model_, window_.takeKeys(), windowPx_);
     window_.endFrame();
+    advanceTime();
     grantWishes();
     askForFrame();
     askForTruth();
     askForMaps();
+    askForElsewhere();
     if (options_.watch && watched_.hasChanged() && !model_.isLoading) {
       LoadRequest again = model_.loaded.request;
       again.keepsCamera = true;
@@ -68,6 +80,7 @@ void ViewerLoop::run() {
 }
 
 double ViewerLoop::waitSeconds() const {
+  if (model_.view.isPlaying && !model_.isDrawing) return 0.005;
   if (!isAtRest() || model_.wishes.screenshot) return 0.05;
   return options_.watch ? 0.5 : kIdleSeconds;
 }
@@ -80,13 +93,20 @@ void ViewerLoop::takeResults() {
     } catch (const std::exception& error) {
       if (!model_.loaded.scene) throw;
       tell(error.what(), true);
+      options_.sayDetail(std::string("failed: ") + error.what());
     }
   };
   attempt([&] {
     if (auto result = loader_.take()) takeScene(std::move(*result));
   });
   attempt([&] {
-    if (auto result = drawer_.take()) takeFrame(std::move(*result));
+    try {
+      if (auto result = drawer_.take()) takeFrame(std::move(*result));
+    } catch (...) {
+      model_.recording.reset();
+      model_.view.isPlaying = false;
+      throw;
+    }
   });
   attempt([&] {
     if (auto result = tracer_.take()) takeTruth(std::move(*result));
@@ -101,14 +121,38 @@ void ViewerLoop::takeResults() {
     model_.message.clear();
 }
 
+/// A camera of the scene that moves takes the eye with it.
+void ViewerLoop::useCameraOf(const LoadResult& result) {
+  model_.view.camera = model_.view.firstCamera = result.camera;
+  model_.view.sceneCamera.reset();
+  const auto& cameras = result.scene->scene.cameras;
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+    if (cameras[i].node >= 0 && isSameView(cameras[i], result.camera)) model_.view.sceneCamera = i;
+}
+
 void ViewerLoop::takeScene(LoadResult result) {
   const bool isSubset = !result.request.mirrors.empty() || result.request.noReflectors;
   if (isSubset && model_.loaded.scene && model_.loaded.request.source == result.request.source)
     result.reflectors = model_.loaded.reflectors;
-  if (!result.request.keepsCamera || !model_.loaded.scene)
-    model_.view.camera = model_.view.firstCamera = result.camera;
+  const bool isFirst = !model_.loaded.scene;
+  if (isFirst && options_.session) checkSession(*options_.session, result.scene->scene);
+  const bool isSame = !isFirst && result.request.keepsCamera &&
+                      hasSameThings(model_.loaded.scene->scene, result.scene->scene);
+  if (!result.request.keepsCamera || isFirst) useCameraOf(result);
+  model_.drag.reset();
+  if (!isSame) {
+    model_.edits.clear();
+    model_.view.selected.reset();
+    model_.view.state = {};
+    if (result.timeS) model_.view.state.timeS = result.timeS;
+    if (!isFirst) model_.view.isPlaying = false;
+  }
   model_.loaded = std::move(result);
+  model_.geometry = geometryOf(model_.loaded.scene);
+  model_.geometryState = {};
+  if (isFirst && options_.session) restoreSession(*options_.session, model_.view);
   model_.view.mapsOf.reset();
+  model_.view.insideOf.reset();
   model_.wishes.viewChanged = true;
   model_.message.clear();
   if (options_.watch && !model_.loaded.scene->isBuiltIn) watched_.watch(model_.loaded.request.source);
@@ -116,13 +160,31 @@ void ViewerLoop::takeScene(LoadResult result) {
 }
 
 void ViewerLoop::takeFrame(FrameResult result) {
+  if (result.request.elsewhere) {
+    maps_.inside.set(result.picture);
+    drawsLeft_ = std::max(drawsLeft_, 1);
+    return options_.sayDetail("from elsewhere");
+  }
   if (!model_.frame.frame)
     options_.sayDetail(fmt::format("first picture after {:.0f} ms", 1e3 * secondsSince(start_)));
   moving_.learn(result.request.scale, result.wholeMs);
   model_.history.add(result);
+  if (result.geometry) {
+    model_.geometry = result.geometry;
+    model_.geometryState = result.request.state;
+  }
+  if (result.request.sceneCamera && result.request.sceneCamera == model_.view.sceneCamera)
+    model_.view.camera = result.request.camera;
   pictures_.method.set(result.picture);
   model_.frame = std::move(result);
   drawsLeft_ = std::max(drawsLeft_, 1);
+  if (!model_.frame.request.options.withSeen)
+    options_.sayDetail(fmt::format("moving: {}x{}, {:.0f} ms, {:.0f} ms after the input",
+                                   model_.frame.picture.width(), model_.frame.picture.height(),
+                                   model_.frame.wholeMs, 1e3 * secondsSince(model_.frame.request.changed)));
+  if (isFrameSettled() && !isFirstInFull_)
+    options_.sayDetail(fmt::format("first picture in full after {:.0f} ms", 1e3 * secondsSince(start_)));
+  isFirstInFull_ = isFirstInFull_ || isFrameSettled();
   if (isFrameSettled())
     options_.sayDetail(fmt::format("settled: {}, {}x{}, {:.0f} ms", model_.variants[model_.view.variant].name,
                                    model_.frame.picture.width(), model_.frame.picture.height(),

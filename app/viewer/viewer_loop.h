@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "viewer/command_text.h"
@@ -33,19 +34,26 @@ class ViewerLoop {
  private:
   void takeResults();
   void takeScene(LoadResult result);
+  void useCameraOf(const LoadResult& result);
   void takeFrame(FrameResult result);
   void takeTruth(TruthResult result);
   void takeMaps(MapsResult result);
   void openDropped();
   void grantWishes();
   void writeScreenshot();
+  void advanceTime();
+  void switchRecording();
+  void undoOrRedo(bool undo);
+  void saveSession();
+  [[nodiscard]] std::vector<std::string> makeSceneWords() const;
   [[nodiscard]] std::string commandText() const {
     return makeCommandText(model_.loaded.request, model_.view.camera, model_.frameOptions(windowPx_),
-                           model_.view.exposure, model_.sceneOptions);
+                           model_.view.exposure, makeSceneWords());
   }
   void askForFrame();
   void askForTruth();
   void askForMaps();
+  void askForElsewhere();
   void load(const LoadRequest& request);
   void tell(const std::string& message, bool isError = false);
   [[nodiscard]] double waitSeconds() const;
@@ -68,9 +76,11 @@ class ViewerLoop {
   Model model_;
   MovingResolution moving_;
   WatchedFile watched_;
-  Clock::time_point lastChange_{}, messageTime_{};
+  Clock::time_point lastChange_{}, messageTime_{}, lastAdvance_{};
+  std::optional<Clock::time_point> oldestUnasked_;  ///< change that no frame was asked for yet
   std::uint64_t view_ = 1;
-  FrameRequest asked_;
+  bool isFirstInFull_ = false;  ///< a picture in full has been shown
+  FrameRequest asked_, askedElsewhere_;
   MapsRequest askedMaps_;
   std::shared_ptr<std::atomic<bool>> cancelTruth_;  ///< of the pass in hand
   ivec2 windowPx_{0};

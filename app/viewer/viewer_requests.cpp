@@ -8,6 +8,8 @@
 #include "catoptric/core/error.h"
 #include "catoptric/core/file.h"
 #include "catoptric/core/image_io.h"
+#include "viewer/camera_control.h"
+#include "viewer/inside_panel.h"
 #include "viewer/viewer_loop.h"
 
 namespace catoptric::viewer {
@@ -49,9 +51,15 @@ void ViewerLoop::grantWishes() {
   Wishes& wishes = model_.wishes;
   if (wishes.close) window_.close();
   if (wishes.load) load(*wishes.load);
+  if (model_.loaded.scene) {
+    if (wishes.undo || wishes.redo) undoOrRedo(wishes.undo);
+    if (wishes.record) switchRecording();
+    if (wishes.saveSession) saveSession();
+  }
   if (wishes.viewChanged) {
     ++view_;
     lastChange_ = Clock::now();
+    if (!oldestUnasked_) oldestUnasked_ = lastChange_;
     model_.truth.reset();
     if (cancelTruth_) *cancelTruth_ = true;
   }
@@ -59,12 +67,20 @@ void ViewerLoop::grantWishes() {
     const std::string text = commandText();
     window_.copyText(text);
     options_.printLine(text);
-    tell("copied: " + text);
+    tell("copied: " + text + (model_.view.state.hasEdits() ? " (without the edits)" : ""));
   }
   const bool screenshotWaits = wishes.screenshot && !isFrameSettled();
   if (wishes.screenshot && !screenshotWaits) writeScreenshot();
   wishes = Wishes{};
   wishes.screenshot = screenshotWaits;
+}
+
+std::vector<std::string> ViewerLoop::makeSceneWords() const {
+  std::vector<std::string> words = model_.sceneOptions;
+  if (model_.view.state.timeS) words.push_back(fmt::format("--time={}", *model_.view.state.timeS));
+  if (!model_.loaded.scene->animation.empty())
+    words.push_back("--animation=" + model_.loaded.scene->animation);
+  return words;
 }
 
 void ViewerLoop::writeScreenshot() {
@@ -84,20 +100,29 @@ void ViewerLoop::writeScreenshot() {
 void ViewerLoop::askForFrame() {
   if (!model_.loaded.scene || windowPx_.x == 0) return;
   const bool isFirst = !model_.frame.frame;
-  const bool inFull = isFirst || isAtRest();
+  const bool isRecording = model_.recording.has_value();
+  const bool inFull = (isAtRest() && !isFirst) || isRecording;  // the first picture is coarse, but soon there
+  const bool withSeen = inFull && !isRecording;
   FrameRequest request;
   request.scene = model_.loaded.scene;
+  request.state = model_.view.state;
   request.camera = model_.view.camera;
+  request.sceneCamera = model_.view.sceneCamera;
   request.options = model_.frameOptions(windowPx_);
   request.exposure = model_.view.exposure;
   request.view = view_;
+  request.changed = oldestUnasked_.value_or(lastChange_);
   request.scale = inFull ? 1.0 : moving_.scale();
-  request.options.withSeen = inFull;
+  request.options.withSeen = withSeen;
   request.options.widthPx = std::max(1, int(request.options.widthPx * request.scale));
   request.options.heightPx = std::max(1, int(request.options.heightPx * request.scale));
-  if (asked_.view == request.view && asked_.options.withSeen == inFull) return;
-  if (!inFull && drawer_.isBusy()) return;  // the next one when this one is there, of the view as it is then
+  if (asked_.view == request.view && asked_.options.withSeen == withSeen) return;
+  // The next one when this one is there, of the view as it is then.
+  if ((!inFull || isRecording) && drawer_.isBusy()) return;
+  if (isRecording)
+    request.recordFile = fmt::format("{}/{:04}.png", model_.recording->folder, ++model_.recording->frames);
   asked_ = request;
+  oldestUnasked_.reset();
   drawer_.ask(std::move(request));
 }
 
@@ -111,10 +136,28 @@ void ViewerLoop::askForTruth() {
   model_.isTracing = true;
 }
 
+/// Of the frame at rest that the drawer has drawn last.
+void ViewerLoop::askForElsewhere() {
+  ViewState& view = model_.view;
+  if (!view.insideOf || !model_.view.showPanels || !isFrameSettled() || drawer_.isBusy()) return;
+  if (model_.picked && !model_.picked->seen.isSky() && model_.picked->seen.firstReflector == *view.insideOf)
+    view.marks.point = dvec3(model_.picked->seen.point);
+  FrameRequest request = model_.frame.request;
+  request.recordFile.clear();
+  request.elsewhere =
+      ElsewhereRequest{view.elsewhere, {*view.insideOf, view.marks, kInsideWidthPx, kInsideHeightPx}};
+  if (askedElsewhere_.elsewhere && askedElsewhere_.view == request.view &&
+      isSameView(askedElsewhere_.elsewhere->camera, view.elsewhere) &&
+      askedElsewhere_.elsewhere->options == request.elsewhere->options)
+    return;
+  askedElsewhere_ = request;
+  drawer_.ask(std::move(request));
+}
+
 void ViewerLoop::askForMaps() {
   if (!model_.view.mapsOf || mapper_.isBusy()) return;
-  const MapsRequest request{model_.loaded.scene, model_.view.camera.eye, *model_.view.mapsOf};
-  if (askedMaps_.scene == request.scene && askedMaps_.eye == request.eye &&
+  const MapsRequest request{model_.geometry, model_.view.camera.eye, *model_.view.mapsOf};
+  if (askedMaps_.geometry == request.geometry && askedMaps_.eye == request.eye &&
       askedMaps_.reflector == request.reflector)
     return;
   askedMaps_ = request;

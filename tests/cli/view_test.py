@@ -7,6 +7,7 @@ import random
 import shlex
 import unittest
 
+import motion_test
 import support
 import window_support
 
@@ -34,7 +35,9 @@ class WithoutDisplay(support.CommandTest):
             self.succeed("render", "scene.gltf", "-o", "x.png", *support.SMALL, env=display)
 
 
-class WithDisplay(support.CommandTest):
+class WindowTest(support.CommandTest):
+    """On a display of its own."""
+
     @classmethod
     def setUpClass(cls):
         cls.server = window_support.Display()
@@ -58,6 +61,8 @@ class WithDisplay(support.CommandTest):
         self.assertEqual(viewer.end(), 0, viewer.said())
         self.assertNotIn("error", viewer.said())
 
+
+class WithDisplay(WindowTest):
     def test_session(self):
         viewer = self.view("scene.gltf", "--size", "320x240", "--camera", "front")
         viewer.wait_for_window()
@@ -125,22 +130,28 @@ class WithDisplay(support.CommandTest):
 
     def test_random_inputs(self):
         chance = random.Random(6)
+        self.write("scene.gltf", json.dumps(motion_test.make_moving()).encode())
         viewer = self.view("scene.gltf", "--size", "320x240")
         viewer.wait_for_window()
         viewer.wait_for_line(SETTLED)
-        keys = "m shift+m s d h f r 1 3 7 bracketleft bracketright p Prior Next x space".split()
+        keys = ("m shift+m s d h f r 1 3 7 bracketleft bracketright p i Prior Next x space ctrl+z ctrl+shift+z ctrl+y "
+                "shift+F12 ctrl+c").split()
         for _ in range(INPUTS):
-            kind = chance.randrange(4)
+            kind = chance.randrange(5)
             x, y = chance.randrange(320), chance.randrange(240)
             if kind == 0:
                 viewer.do("mousemove", x, y, "click", chance.choice((1, 2, 3, 4, 5)))
             elif kind == 1:
                 viewer.do("mousemove", x, y, "mousedown", chance.choice((1, 2)), "mousemove_relative", "--",
                           chance.randrange(-50, 50), chance.randrange(-50, 50), "mouseup", 1, "mouseup", 2)
+            elif kind == 2:
+                viewer.do("keydown", "ctrl", "mousemove", x, y, "mousedown", 1, "mousemove_relative", "--",
+                          chance.randrange(-50, 50), chance.randrange(-50, 50), "mouseup", 1, "keyup", "ctrl")
             else:
                 viewer.do("key", chance.choice(keys))
         self.assertIsNone(viewer.process.poll(), viewer.said())
         self.close(viewer)
+        self.assertNotIn("failed: ", viewer.said())  # with CATOPTRIC_GL_DEBUG any error of OpenGL is one
 
 
 if __name__ == "__main__":

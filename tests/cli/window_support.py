@@ -35,10 +35,13 @@ def wait_for(condition, what, seconds=PATIENCE):
 class Display:
     """An X server without a screen. `with Display() as name:`"""
 
+    def __init__(self, width=800, height=600):
+        self.size = f"{width}x{height}x24"
+
     def __enter__(self):
         read, write = os.pipe()
         # Without -noreset the server starts anew after its last client, and refuses the next one while it does.
-        command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "800x600x24", "-nolisten", "tcp", "-noreset"]
+        command = ["Xvfb", "-displayfd", str(write), "-screen", "0", self.size, "-nolisten", "tcp", "-noreset"]
         self.server = subprocess.Popen(command, pass_fds=(write,), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(write)
         with os.fdopen(read) as number:

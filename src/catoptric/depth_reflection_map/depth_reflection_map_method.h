@@ -35,8 +35,11 @@ class DepthReflectionMapMethod : public raster::ReflectionMethod {
     windows_.clear();
     inverse_.geometryChanged();
   }
+  void materialsChanged() override { geometryChanged(); }
   void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
               raster::Level& target) override;
+  void collectMarks(const scene::WorldGeometry& world, std::uint32_t reflector,
+                    const raster::MarkOptions& options, raster::Marks& marks) const override;
 
  private:
   /// The hemispheres behind one side of a mirror.

@@ -47,6 +47,11 @@ class ReferenceCache {
   /// Valid until the next call but one.
   [[nodiscard]] ReferenceImage& take(raster::FrameContext& frame, const ReferenceKey& key,
                                      const ReferenceCamera& camera);
+  /// Null where it is not kept any more.
+  [[nodiscard]] const ReferenceImage* find(const ReferenceKey& key) const {
+    const auto found = images_.find(key);
+    return found == images_.end() ? nullptr : found->second.get();
+  }
   /// One that take() has just given.
   [[nodiscard]] const ReferenceImage& get(const ReferenceKey& key) const { return *images_.at(key); }
 

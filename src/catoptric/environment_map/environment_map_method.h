@@ -16,6 +16,7 @@ class EnvironmentMapMethod : public raster::ReflectionMethod {
   void setOptions(int sizeTexels, bool boxCorrected);
   void prepare(raster::FrameContext&) override {}
   void geometryChanged() override { cubes_.geometryChanged(); }
+  void materialsChanged() override { cubes_.geometryChanged(); }
   void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
               raster::Level& target) override;
 

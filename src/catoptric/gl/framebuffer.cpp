@@ -146,6 +146,14 @@ void drawTriangles(std::uint32_t firstIndex, std::uint32_t indexCount) {
                  reinterpret_cast<const void*>(std::uintptr_t(firstIndex) * sizeof(std::uint32_t)));
 }
 
+void drawLines(std::uint32_t vertexCount) {
+  glDrawArrays(GL_LINES, 0, GLsizei(vertexCount));
+}
+
+void drawPoints(std::uint32_t vertexCount) {
+  glDrawArrays(GL_POINTS, 0, GLsizei(vertexCount));
+}
+
 void drawScreen() {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }

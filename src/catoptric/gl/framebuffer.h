@@ -73,6 +73,9 @@ void setDrawState(const DrawState& state);
 void setScissor(const Scissor& scissor);
 /// The bound vertex array's index buffer, 32-bit indices, triangles.
 void drawTriangles(std::uint32_t firstIndex, std::uint32_t indexCount);
+/// The vertices of the bound array in order: two for each line, one for each point.
+void drawLines(std::uint32_t vertexCount);
+void drawPoints(std::uint32_t vertexCount);
 /// One triangle that covers the target, farther than all else; shaders/raster/screen.vert makes its corners
 /// from gl_VertexID.
 void drawScreen();

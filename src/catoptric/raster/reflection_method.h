@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "catoptric/raster/marks.h"
 #include "catoptric/raster/mirror_mask.h"
 #include "catoptric/raster/surface_pass.h"
 
@@ -55,9 +56,15 @@ class ReflectionMethod {
   virtual void prepare(FrameContext& frame) = 0;
   /// Vertices or reflectors of the scene have moved: whatever was made from them is out of date.
   virtual void geometryChanged() {}
+  /// Materials look different: the same of pictures that were taken.
+  virtual void materialsChanged() {}
   /// Draws what the last mirror of the chain shows into `target`, at the pixels of `parent` that show that
   /// mirror.
   virtual void render(FrameContext& frame, const Chain& chain, const Level& parent, Level& target) = 0;
+
+  /// What the last frame worked with for a mirror that is seen directly; of use until the geometry changes.
+  virtual void collectMarks(const scene::WorldGeometry&, std::uint32_t /*reflector*/, const MarkOptions&,
+                            Marks&) const {}
 };
 
 /// The environment in the mirror direction, behind what has been drawn into the target with its depth.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -59,7 +60,8 @@ core::Box computePartBox(const scene::WorldGeometry& world, std::uint32_t index)
 SceneBuffers::SceneBuffers(const scene::Scene& scene, const scene::WorldGeometry& geometry,
                            const scene::Environment& environment)
     : scene_(scene), geometry_(geometry), world_(geometry), materialBlocks_(gl::BufferKind::Uniform) {
-  uploadMaterials();
+  uploadTextures();
+  updateMaterials();
   uploadEnvironment(environment);
   if (scene.lights.size() > std::size_t(kMaxLights))
     core::logWarningOnce(fmt::format("the scene has {} lights; the rasterizer uses the first {}",
@@ -112,22 +114,26 @@ const gl::Texture* SceneBuffers::findTexture(const scene::TextureSlot& slot, boo
   return texture.get();
 }
 
-void SceneBuffers::uploadMaterials() {
+void SceneBuffers::uploadTextures() {
   const std::array<std::uint8_t, 4> whiteTexel{255, 255, 255, 255};
   white_ =
       std::make_unique<gl::Texture>(gl::TextureKind::Flat, gl::Format::Rgba8, 1, 1, 1, 1, gl::SamplerState{});
   white_->upload(0, 0, whiteTexel.data());
   materials_ = scene_.materials;
   materials_.emplace_back();
+  for (const scene::Material& m : materials_)
+    slots_.push_back({findTexture(m.baseColorTexture, true), findTexture(m.metallicRoughnessTexture, false),
+                      findTexture(m.normalTexture, false), findTexture(m.occlusionTexture, false),
+                      findTexture(m.emissiveTexture, true)});
+}
+
+void SceneBuffers::updateMaterials() {
+  std::copy(scene_.materials.begin(), scene_.materials.end(), materials_.begin());
   const std::size_t alignment = gl::uniformBufferAlignment();
   blockStride_ = (sizeof(MaterialBlock) + alignment - 1) / alignment * alignment;
   std::vector<std::byte> bytes(blockStride_ * materials_.size());
   for (std::size_t i = 0; i < materials_.size(); ++i) {
-    const scene::Material& m = materials_[i];
-    slots_.push_back({findTexture(m.baseColorTexture, true), findTexture(m.metallicRoughnessTexture, false),
-                      findTexture(m.normalTexture, false), findTexture(m.occlusionTexture, false),
-                      findTexture(m.emissiveTexture, true)});
-    const MaterialBlock block = makeBlock(m, slots_.back());
+    const MaterialBlock block = makeBlock(materials_[i], slots_[i]);
     std::memcpy(bytes.data() + i * blockStride_, &block, sizeof block);
   }
   materialBlocks_.upload(std::span<const std::byte>(bytes));

@@ -37,6 +37,9 @@ class SceneBuffers {
   /// After vertices of these parts of the geometry have moved, or turned their winding.
   void updateGeometry(std::span<const std::uint32_t> movedParts);
 
+  /// After values of materials have changed; their textures stay.
+  void updateMaterials();
+
   /// Sets what every shader that includes raster/environment_lookup.glsl needs; the program must be in use.
   void bindEnvironment(gl::Program& program) const;
   void bindLights(gl::Program& program) const;
@@ -55,7 +58,7 @@ class SceneBuffers {
   [[nodiscard]] const core::Box& partBox(std::uint32_t part) const { return boxes_[part]; }
 
  private:
-  void uploadMaterials();
+  void uploadTextures();
   void uploadEnvironment(const scene::Environment& environment);
   const gl::Texture* findTexture(const scene::TextureSlot& slot, bool srgb);
 

@@ -39,6 +39,8 @@ class ReflectionMorphingMethod : public raster::ReflectionMethod {
   void prepare(raster::FrameContext& frame) override;
   void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
               raster::Level& target) override;
+  void collectMarks(const scene::WorldGeometry& world, std::uint32_t reflector,
+                    const raster::MarkOptions& options, raster::Marks& marks) const override;
 
  private:
   /// What a curved mirror may reflect, and at which size of the mirror; what moves is apart from the rest.

@@ -16,6 +16,7 @@
 #include "catoptric/core/image.h"
 #include "catoptric/core/seen.h"
 #include "catoptric/depth_reflection_map/zexel_options.h"
+#include "catoptric/raster/mark_options.h"
 #include "catoptric/raster/merge.h"
 #include "catoptric/scene/camera_frame.h"
 #include "catoptric/scene/environment.h"
@@ -90,6 +91,15 @@ struct Frame {
   FrameCounters counters;
 };
 
+/// What of the last frame's method is looked at from elsewhere.
+struct ElsewhereOptions {
+  std::uint32_t reflector = core::kNoId;  ///< the mirror whose method is looked at; left out of the scene
+  raster::MarkOptions marks;
+  int widthPx = 640, heightPx = 480;
+
+  bool operator==(const ElsewhereOptions&) const = default;
+};
+
 /// Why a reflector is drawn the way it is; for `info`.
 struct MethodChoice {
   Method method = Method::Virtual;
@@ -111,8 +121,18 @@ class Renderer {
   /// Throws core::Error("gl.*") when there is no usable GL, with the remedy.
   [[nodiscard]] Frame render(const scene::Camera& camera, const FrameOptions& options);
 
+  /// The scene as a camera elsewhere sees it (1998, fig. 10 and 11), with what the last render() worked with
+  /// for one mirror: virtual object, tessellation, cells, octree, zexels. Mirrors show the surroundings only,
+  /// the mirror that is looked at its triangles. Before a render(), the scene alone. Linear radiance.
+  [[nodiscard]] core::ImageRgbaF renderElsewhere(const scene::Camera& camera,
+                                                 const ElsewhereOptions& options);
+
   /// After vertices of these parts of the geometry, or reflectors, have moved (scene::WorldMotion).
   void updateGeometry(std::span<const std::uint32_t> movedParts);
+
+  /// After values of materials, not their textures, or reflectivities of reflectors have changed
+  /// (scene::changeMaterial()).
+  void updateMaterials();
 
   /// Writes the reference images of zexels to ZexelOptions::cacheFile, when there are new ones. Throws
   /// core::Error("file.write").

@@ -109,6 +109,12 @@ void RasterFrame::updateGeometry(std::span<const std::uint32_t> movedParts) {
   morphing_.partsMoved(geometry_, movedParts);
 }
 
+void RasterFrame::updateMaterials() {
+  scene_.updateMaterials();
+  hasMoved_ = true;
+  for (raster::ReflectionMethod* method : methods_) method->materialsChanged();
+}
+
 void RasterFrame::prepareLevels(int count, const FrameOptions& options) {
   const int widthPx = options.widthPx, heightPx = options.heightPx;
   const bool withStencil = options.merge == Merge::Stencil || options.merge == Merge::Erase;
@@ -192,6 +198,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   frame.timings.primaryMs += millisecondsSince(start);
 
   chains_.beginFrame();
+  lastMethods_.clear();
   hits_.beginFrame();
   for (raster::ReflectionMethod* method : methods_)
     if (method != &morphing_ || options.method == Method::Morphing) method->prepare(context);
@@ -213,10 +220,12 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
     target.isComplete = isComplete;
     target.withSeen = options.withSeen;
     for (const raster::Chain& chain : chains)
-      if (raster::ReflectionMethod* method = pickMethod(chain, options))
+      if (raster::ReflectionMethod* method = pickMethod(chain, options)) {
         renderMirror(*method, context, chain, *levels_[std::size_t(level)], target);
-      else
+        if (level == 0) lastMethods_[chain.last] = method;
+      } else {
         target.isComplete = false;
+      }
     ++levelCount;
     parents = chains;
   }

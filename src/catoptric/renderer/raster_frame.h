@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -27,6 +28,10 @@ class RasterFrame {
   [[nodiscard]] Frame render(const scene::CameraFrame& camera, const FrameOptions& options);
   /// After vertices of these parts have moved.
   void updateGeometry(std::span<const std::uint32_t> movedParts);
+  /// After values of materials have changed.
+  void updateMaterials();
+  [[nodiscard]] core::ImageRgbaF renderElsewhere(const scene::CameraFrame& camera,
+                                                 const ElsewhereOptions& options);
   void saveReferenceImages() { zexel_.saveCacheFile(); }
 
  private:
@@ -74,6 +79,10 @@ class RasterFrame {
   double nearPlane_ = 0;  ///< of the last camera; 0 = not known
   scene::CameraFrame nearPlaneCamera_;
   std::vector<std::unique_ptr<raster::Level>> levels_;
+  std::map<std::uint32_t, raster::ReflectionMethod*>
+      lastMethods_;                           ///< of the last frame, by reflector seen directly
+  std::unique_ptr<raster::Level> elsewhere_;  ///< of renderElsewhere(), with what draws the marks
+  std::unique_ptr<raster::MarksPass> marksPass_;
 };
 
 }  // namespace catoptric::renderer

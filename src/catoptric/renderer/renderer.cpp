@@ -63,11 +63,27 @@ Frame Renderer::render(const scene::Camera& camera, const FrameOptions& options)
   return impl_->raster->render(view, options);
 }
 
+core::ImageRgbaF Renderer::renderElsewhere(const scene::Camera& camera, const ElsewhereOptions& options) {
+  const scene::CameraFrame view = scene::makeCameraFrame(camera, options.widthPx, options.heightPx);
+  gl::Context& context = impl_->getContext();
+  context.makeCurrent();
+  if (!impl_->raster)
+    impl_->raster = std::make_unique<RasterFrame>(context, impl_->scene, impl_->geometry, impl_->environment);
+  return impl_->raster->renderElsewhere(view, options);
+}
+
 void Renderer::updateGeometry(std::span<const std::uint32_t> movedParts) {
   impl_->tracer.reset();  // its tree is built anew when it is needed
   if (!impl_->raster) return;
   impl_->getContext().makeCurrent();
   impl_->raster->updateGeometry(movedParts);
+}
+
+void Renderer::updateMaterials() {
+  impl_->tracer.reset();
+  if (!impl_->raster) return;
+  impl_->getContext().makeCurrent();
+  impl_->raster->updateMaterials();
 }
 
 void Renderer::saveReferenceImages() {

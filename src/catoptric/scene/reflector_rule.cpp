@@ -87,6 +87,13 @@ ReflectorRule::ReflectorRule(const Scene& scene, const ReflectorOptions& options
   byMaterial_.push_back(decideByRule(scene, Material{}, options));
 }
 
+ReflectorRule::ReflectorRule(const Scene& scene, const ReflectorOptions& options, int onlyMaterial)
+    : scene_(scene), byMaterial_(scene.materials.size() + 1) {
+  const bool isNone = onlyMaterial < 0;
+  byMaterial_[isNone ? scene.materials.size() : std::size_t(onlyMaterial)] =
+      decideByRule(scene, isNone ? Material{} : scene.materials[std::size_t(onlyMaterial)], options);
+}
+
 const ReflectorDecision& ReflectorRule::decideByMaterial(int material) const {
   return material < 0 ? byMaterial_.back() : byMaterial_[std::size_t(material)];
 }

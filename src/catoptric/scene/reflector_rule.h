@@ -28,6 +28,8 @@ struct ReflectorDecision {
 class ReflectorRule {
  public:
   ReflectorRule(const Scene& scene, const ReflectorOptions& options);
+  /// For one material only: its texture alone is looked at.
+  ReflectorRule(const Scene& scene, const ReflectorOptions& options, int onlyMaterial);
 
   /// `material` as in Part::material.
   [[nodiscard]] const ReflectorDecision& decideByMaterial(int material) const;

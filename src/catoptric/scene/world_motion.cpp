@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <utility>
 
 #include "catoptric/core/parallel.h"
@@ -45,6 +46,8 @@ WorldMotion::WorldMotion(Scene& scene, WorldGeometry& world, const ReflectorOpti
     deformed_[i].resize(scene.meshes[i].primitives.size());
   }
   wasMirroring_.resize(scene.instances.size());
+  shifts_.resize(scene.instances.size(), dvec3(0));
+  for (const Instance& instance : scene.instances) placements_.push_back(instance.worldFromMesh);
   for (std::uint32_t i = 0; i < world.parts.size(); ++i) {
     const Instance& instance = scene.instances[world.parts[i].object];
     if (moves(instance.node) || meshDeforms_[std::size_t(instance.mesh)]) movingParts_.push_back(i);
@@ -74,9 +77,12 @@ bool WorldMotion::isDeformed(const Mesh& mesh) const {
 }
 
 void WorldMotion::placeInstances() {
-  for (Instance& instance : scene_.instances)
-    if (moves(instance.node))
-      instance.worldFromMesh = pose_.worldFromNode[std::size_t(instance.node)] * instance.nodeFromMesh;
+  for (std::size_t i = 0; i < scene_.instances.size(); ++i) {
+    Instance& instance = scene_.instances[i];
+    if (!moves(instance.node)) continue;
+    placements_[i] = pose_.worldFromNode[std::size_t(instance.node)] * instance.nodeFromMesh;
+    instance.worldFromMesh = glm::translate(dmat4(1.0), shifts_[i]) * placements_[i];
+  }
 }
 
 void WorldMotion::placeCamerasAndLights() {
@@ -124,7 +130,7 @@ void WorldMotion::writePart(const Part& part) {
   const Instance& instance = scene_.instances[part.object];
   const auto meshIndex = std::size_t(instance.mesh);
   const MeshPrimitive& primitive = scene_.meshes[meshIndex].primitives[part.primitive];
-  const bool isDeformed = meshDeforms_[meshIndex] && primitive.deformation;
+  const bool isDeformed = isPosed_ && meshDeforms_[meshIndex] && primitive.deformation;
   const DeformedVertices& deformed = deformed_[meshIndex][part.primitive];
   const std::vector<vec3>& positions = isDeformed ? deformed.positions : primitive.positions;
   const std::vector<vec3>& normals = isDeformed ? deformed.normals : primitive.normals;
@@ -134,7 +140,7 @@ void WorldMotion::writePart(const Part& part) {
   if (const int node = scene_.meshes[meshIndex].node; isDeformed && instance.node < 0 && node >= 0 &&
                                                       scene_.meshes[meshIndex].skin >= 0 &&
                                                       primitive.deformation->influences == 0)
-    m = pose_.worldFromNode[std::size_t(node)];
+    m = glm::translate(dmat4(1.0), shifts_[part.object]) * pose_.worldFromNode[std::size_t(node)];
   const dmat3 l(m);
   const double sign = isMirroring(m) ? -1 : 1;
   const dmat3 normalMatrix =
@@ -163,6 +169,7 @@ void WorldMotion::turnWinding(const Part& part) {
 void WorldMotion::setTime(double timeS) {
   // 1
   computePose(scene_.motion, choice_, timeS, pose_);
+  isPosed_ = true;
   // 2. An instance that begins or ceases to mirror turns the winding of its triangles round.
   for (std::size_t i = 0; i < wasMirroring_.size(); ++i)
     wasMirroring_[i] = isMirroring(scene_.instances[i].worldFromMesh);
@@ -178,11 +185,29 @@ void WorldMotion::setTime(double timeS) {
       turnWinding(part);
   }
   // 5
+  measureParts(movingParts_);
+}
+
+void WorldMotion::measureParts(std::span<const std::uint32_t> parts) {
   world_.bounds = {};
   for (const vec3& p : world_.positions) world_.bounds.add(dvec3(p));
-  for (const std::uint32_t p : movingParts_)
+  for (const std::uint32_t p : parts)
     if (world_.parts[p].reflector != core::kNoId)
       measureReflectorAgain(scene_, world_, world_.parts[p].reflector, options_);
+}
+
+std::span<const std::uint32_t> WorldMotion::shiftInstance(std::uint32_t instance, const dvec3& shift) {
+  shiftedParts_.clear();
+  if (shifts_[instance] == shift) return shiftedParts_;
+  shifts_[instance] = shift;
+  scene_.instances[instance].worldFromMesh = glm::translate(dmat4(1.0), shift) * placements_[instance];
+  for (std::uint32_t p = 0; p < world_.parts.size(); ++p) {
+    if (world_.parts[p].object != instance) continue;
+    writePart(world_.parts[p]);
+    shiftedParts_.push_back(p);
+  }
+  measureParts(shiftedParts_);
+  return shiftedParts_;
 }
 
 bool WorldMotion::movesOnlyCameras() const {

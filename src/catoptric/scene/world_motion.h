@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Moves a scene and its world geometry to a time: instances, cameras and lights follow their nodes, meshes
-// are morphed and skinned, reflectors are measured anew (plane, shape, extent). Vertices and triangles keep
-// their places in the world arrays; nothing is computed ahead.
+// are morphed and skinned, reflectors are measured anew (plane, shape, extent). Instances can be shifted by
+// hand from where that puts them. Vertices and triangles keep their places in the world arrays; nothing is
+// computed ahead.
 //
 // Departures: which triangles are mirrors, how they fall into pieces and what belongs to the shell stays as
 // it was at rest. Cost: linear in what moves, on all cores; nothing is allocated after the first call, but
@@ -30,6 +31,10 @@ class WorldMotion {
   /// Before the first and after the last key frame everything stands still.
   void setTime(double timeS);
 
+  /// Places an instance this far from where its node or the file puts it, metres, at this time and all
+  /// others; zero undoes it. Returns the parts whose vertices have moved, valid until the next call.
+  std::span<const std::uint32_t> shiftInstance(std::uint32_t instance, const dvec3& shift);
+
   /// Parts whose vertices setTime() writes, ascending: the same at each time.
   [[nodiscard]] std::span<const std::uint32_t> movingParts() const { return movingParts_; }
   /// What is seen stays as it is, wherever from.
@@ -52,6 +57,7 @@ class WorldMotion {
   void placeCamerasAndLights();
   void deformMeshes();
   void writePart(const Part& part);
+  void measureParts(std::span<const std::uint32_t> parts);
   void turnWinding(const Part& part);
 
   Scene& scene_;
@@ -60,7 +66,10 @@ class WorldMotion {
   MotionChoice choice_;
   Pose pose_;
   std::vector<bool> nodeMoves_, meshDeforms_;
-  std::vector<std::uint32_t> movingParts_;
+  std::vector<std::uint32_t> movingParts_, shiftedParts_;
+  std::vector<dmat4> placements_;  ///< of each instance, without its shift
+  std::vector<dvec3> shifts_;      ///< of each instance
+  bool isPosed_ = false;           ///< setTime() was called: deformed_ holds what is drawn
   std::vector<std::vector<DeformedVertices>> deformed_;  ///< by mesh and primitive
   std::vector<dmat4> worldFromVertex_;                   ///< of the joints of one skin
   std::vector<bool> wasMirroring_;                       ///< of each instance, at the time before

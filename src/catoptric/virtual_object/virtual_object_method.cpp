@@ -98,6 +98,7 @@ void VirtualObjectMethod::drawObjects(raster::FrameContext& frame, const raster:
   if (p.objects.indices.empty()) return;
   computeVirtualVertices(frame, chain, drawEye, p);
   if (!p.solver->canReflect()) return;
+  if (chain.level == 1) last_[chain.last] = &p;
 
   // 2
   raster::SurfaceView view;

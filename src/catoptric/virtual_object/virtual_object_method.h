@@ -27,10 +27,19 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     return chain.curved.has_value() && !chain.hasSecondCurved && !chain.hasRefractor();
   }
   void setSolver(Solver solver) { solver_ = solver; }
-  void prepare(raster::FrameContext&) override {}
-  void geometryChanged() override { prepared_.clear(); }
+  void prepare(raster::FrameContext&) override { last_.clear(); }
+  void geometryChanged() override {
+    last_.clear();
+    prepared_.clear();
+  }
   void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
               raster::Level& target) override;
+
+  /// Draws the virtual object of a mirror, as the last frame has computed it, for an eye that is elsewhere.
+  void drawFromElsewhere(raster::FrameContext& frame, std::uint32_t reflector,
+                         const raster::SurfaceView& elsewhere, raster::Level& target);
+  void collectMarks(const scene::WorldGeometry& world, std::uint32_t reflector,
+                    const raster::MarkOptions& options, raster::Marks& marks) const override;
 
  private:
   /// Everything kept for one curved reflector from frame to frame.
@@ -52,6 +61,9 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     std::vector<VertexKind> kinds;
     std::vector<std::uint8_t> mayReflect;  ///< by run
   };
+  static void addTessellation(const scene::WorldGeometry& world, const Prepared& p, raster::Marks& marks);
+  static void addCells(const Prepared& p, double rayLength, raster::Marks& marks);
+  static void addPath(const Prepared& p, const dvec3& point, raster::Marks& marks);
   void drawObjects(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
                    raster::Level& target);
   Prepared& prepareReflector(const raster::FrameContext& frame, const raster::Chain& chain,
@@ -83,6 +95,7 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   /// By reflector, whether it is seen from behind, whether it sees the objects directly, size of the
   /// tessellation.
   std::map<std::tuple<std::uint32_t, bool, bool, double>, std::unique_ptr<Prepared>> prepared_;
+  std::map<std::uint32_t, Prepared*> last_;  ///< of the last frame, by reflector seen directly
 };
 
 }  // namespace catoptric::virtual_object

@@ -121,6 +121,9 @@ class VirtualObjectSolver {
   /// False when the eye cannot see any front of the mirror: everything is None, skip the reflector.
   [[nodiscard]] bool canReflect() const { return canReflect_; }
 
+  /// At every welded vertex of the mesh.
+  [[nodiscard]] const ReflectedRays& reflectedRays() const { return rays_; }
+
   /// Holds every ray that leaves the mirror; of use where canReflect().
   [[nodiscard]] const ReflectedCone& reflectedCone() const { return cone_; }
 

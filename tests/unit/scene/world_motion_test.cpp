@@ -50,6 +50,18 @@ TEST(WorldMotion, anInstanceFollowsItsNode) {
   EXPECT_EQ(m.world.normals[0], vec3(0, 0, 1));
 }
 
+TEST(WorldMotion, aShiftIsKeptWhileTheNodeMoves) {
+  Moving m(gltf_test::import(makeMoving()));
+  ASSERT_EQ(m.motion.shiftInstance(0, dvec3(0, 4, 0)).size(), 1u);  // in the rest pose
+  EXPECT_EQ(m.world.positions[0], vec3(0, 4, 0));
+  EXPECT_EQ(m.motion.shiftInstance(0, dvec3(0, 4, 0)).size(), 0u) << "it is there already";
+  m.motion.setTime(0.25);
+  EXPECT_EQ(m.world.positions[0], vec3(0.5f, 4, 0));
+  EXPECT_EQ(m.world.bounds.upper.y, 5);
+  (void)m.motion.shiftInstance(0, dvec3(0));
+  EXPECT_EQ(m.world.positions[0], vec3(0.5f, 0, 0));
+}
+
 TEST(WorldMotion, keyFramesAreReadStrictly) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const auto refuse = [](const Document& document) {

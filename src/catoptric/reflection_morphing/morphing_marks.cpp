@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ray octree of a mirror's trace at the location nearest to the eye, as an eye elsewhere sees it: the
+// cells that hold a point, from the root down, and the rays of the leaf; some of the map's other rays; the
+// locations of the sampling cell.
+#include <algorithm>
+
+#include "catoptric/reflection_morphing/reflection_morphing_method.h"
+
+namespace catoptric::reflection_morphing {
+namespace {
+
+constexpr int kRaysAcross = 20;
+const vec3 kLocationColor(0.2f, 0.5f, 1.0f), kCellColor(0.9f, 0.3f, 0.7f), kRayColor(0.4f, 0.6f, 0.15f),
+    kLeafRayColor(1.0f, 0.9f, 0.1f);
+
+void addRay(const RayMap& map, std::size_t texel, double length, const vec3& color, raster::Marks& marks) {
+  const RayTexel& ray = map.texels[texel];
+  marks.addLine(ray.origin, dvec3(ray.origin) + length * dvec3(ray.direction), color);
+}
+
+/// As RayOctree::findLeaf() goes.
+void addLeaf(const SampledTrace& trace, const vec3& point, double rayLength, raster::Marks& marks) {
+  const RayOctree& octree = trace.octree;
+  if (octree.nodes.empty()) return;
+  dvec3 low(octree.lower), half = 0.5 * (dvec3(octree.upper) - low);
+  std::uint32_t node = 0;
+  marks.addBox(low, low + 2.0 * half, 0.5f * kCellColor);
+  while (octree.nodes[node].count == 0) {
+    node = octree.nodes[node].first;
+    for (int axis = 0; axis < 3; ++axis)
+      if (double(point[axis]) >= low[axis] + half[axis]) {
+        node += 1u << axis;
+        low[axis] += half[axis];
+      }
+    half *= 0.5;
+    marks.addBox(low, low + 2.0 * half, kCellColor);
+  }
+  for (const std::uint32_t ray : octree.findLeaf(point))
+    addRay(trace.map, ray, rayLength, kLeafRayColor, marks);
+}
+
+}  // namespace
+
+void ReflectionMorphingMethod::collectMarks(const scene::WorldGeometry& world, std::uint32_t reflector,
+                                            const raster::MarkOptions& options, raster::Marks& marks) const {
+  if (!options.octree || !cell_) return;
+  const double rayLength = 2.0 * world.bounds.radius();
+  const dvec3 first = source_->grid().location(cell_->locations[0]);
+  marks.addBox(first, source_->grid().location(cell_->locations[7]), kLocationColor);
+  const auto heaviest = std::max_element(cell_->weights.begin(), cell_->weights.end());
+  const SamplingLocation& location =
+      *locations_.at(cell_->locations[std::size_t(heaviest - cell_->weights.begin())]);
+  const SampledTrace* trace = location.findTrace({reflector});
+  if (!trace) return;
+  const RayMap& map = trace->map;
+  const int stride = std::max(1, map.size / kRaysAcross);
+  for (int y = 0; y < map.size; y += stride)
+    for (int x = 0; x < map.size; x += stride)
+      if (map.states[map.at(x, y)] == TexelState::Ray) {
+        addRay(map, map.at(x, y), rayLength, kRayColor, marks);
+        marks.addLine(location.position, map.texels[map.at(x, y)].origin, 0.4f * kLocationColor);
+      }
+  if (options.point) addLeaf(*trace, vec3(*options.point), rayLength, marks);
+}
+
+}  // namespace catoptric::reflection_morphing

@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The viewer changes scenes: objects are dragged, edits undone, time plays, frames are recorded, sessions return."""
+import json
+import os
+import unittest
+
+import motion_test
+import support
+import window_support
+from view_test import NO_DISPLAY, SETTLED, WindowTest
+
+SESSION = "scene-0001.session.json"
+
+
+class Sessions(support.CommandTest):
+    def refuse_session(self, change, says):
+        session = {"schema": 1, "scene": "scene.gltf"}
+        change(session)
+        self.write("bad.json", json.dumps(session).encode())
+        self.refuse(1, says, "view", "--session", "bad.json", env=NO_DISPLAY)
+
+    def test_what_is_wrong_is_said_before_a_window_is_sought(self):
+        self.write("bad.json", b"{")
+        self.refuse(1, "JSON", "view", "--session", "bad.json", env=NO_DISPLAY)
+        self.refuse(1, "missing.json", "view", "--session", "missing.json", env=NO_DISPLAY)
+        self.refuse(2, "one too many", "view", "scene.gltf", "--session", "bad.json", env=NO_DISPLAY)
+        self.refuse_session(lambda s: s.pop("scene"), "missing")
+        self.refuse_session(lambda s: s.update(schema=2), "/schema")
+        self.refuse_session(lambda s: s.update(scene="lost.gltf"), "lost.gltf")
+        self.refuse_session(lambda s: s.update(camera={"eye": [0, 0, "1"]}), "/camera/eye/2")
+        self.refuse_session(lambda s: s.update(camera={"eye": [1, 1, 1], "target": [1, 1, 1]}), "/camera")
+        self.refuse_session(lambda s: s.update(options={"bounces": 1e9}), "/options/bounces")
+        self.refuse_session(lambda s: s.update(options={"method": "magic"}), "raytrace")
+        self.refuse_session(lambda s: s.update(options={"bounce": 1}), "/options/bounce")
+        self.refuse_session(lambda s: s.update(materials=[{"material": 0, "roughness": 2}]), "/materials/0/roughness")
+        self.refuse_session(lambda s: s.update(moved={"object": 0}), "/moved")
+        self.refuse_session(lambda s: s.update(scene_options=["--nonsense"]), "/scene_options")
+        # As it should be, only the window is missing.
+        self.refuse_session(lambda s: None, "no window can be opened")
+
+
+class Editing(WindowTest):
+    def drag_with_control(self, viewer, start, end):
+        viewer.do("keydown", "ctrl")
+        viewer.drag(start, end)
+        viewer.do("keyup", "ctrl")
+
+    def test_a_dragged_object_is_undone_and_saved(self):
+        viewer = self.view("scene.gltf", "--size", "320x240", "--camera", "front")
+        viewer.wait_for_window()
+        viewer.wait_for_line(SETTLED)
+        viewer.do("key", "p")
+        first = self.screenshot(viewer, 1)
+        viewer.after(SETTLED, lambda: self.drag_with_control(viewer, (220, 90), (100, 150)))
+        dragged = self.screenshot(viewer, 2)
+        self.assertNotEqual(dragged, first)
+        # Where it was taken to, and only there: the board is red.
+        _, _, channels, rows = dragged
+        self.assertGreater(rows[150][100 * channels], 2 * rows[150][100 * channels + 1])
+        self.assertLess(rows[90][220 * channels], 2 * rows[90][220 * channels + 1])
+        viewer.after(SETTLED, lambda: viewer.do("key", "ctrl+z"))
+        self.assertEqual(self.screenshot(viewer, 3), first)
+        viewer.after(SETTLED, lambda: viewer.do("key", "ctrl+shift+z"))
+        self.assertEqual(self.screenshot(viewer, 4), dragged)
+        viewer.after("wrote ", lambda: viewer.do("key", "ctrl+s"))
+        self.close(viewer)
+
+        # The session shows the same, from another folder as well.
+        session = json.loads(self.read(SESSION))
+        self.assertEqual([edit["name"] for edit in session["moved"]], ["Board"])
+        os.mkdir(self.path("other"))
+        viewer = window_support.Viewer(self.path("other"), self.display, "--session", "../" + SESSION)
+        self.addCleanup(viewer.kill)
+        viewer.wait_for_window()
+        viewer.wait_for_line(SETTLED)
+        viewer.after("wrote ", lambda: viewer.do("key", "F12"))
+        self.assertEqual(support.read_png(self.read("other", "scene-0001.png")), dragged)
+        self.close(viewer)
+
+        # Of a scene that has changed since it says so.
+        session["moved"][0]["name"] = "Plank"
+        self.write(SESSION, json.dumps(session).encode())
+        viewer = self.view("--session", SESSION)
+        self.assertEqual(viewer.end(), 1)
+        self.assertEqual(viewer.count("catoptric: error: .*'Plank'"), 1, viewer.said())
+
+    def test_inside_the_method(self):
+        viewer = self.view("scene.gltf", "--size", "700x560", "--camera", "front", "--method", "zexel")
+        viewer.wait_for_window()
+        viewer.wait_for_line(SETTLED)
+        viewer.after("from elsewhere", lambda: viewer.do("key", "i"))
+        viewer.after("from elsewhere", lambda: viewer.drag((400, 400), (450, 420)))  # the second camera alone moves
+        self.assertEqual(viewer.count(SETTLED), 1, viewer.said())
+        viewer.do("key", "i")
+        self.close(viewer)
+
+    def test_time_plays_and_frames_are_recorded(self):
+        self.write("scene.gltf", json.dumps(motion_test.make_moving()).encode())
+        viewer = self.view("scene.gltf", "--size", "160x120", "--camera", "front", "--time", "1")
+        viewer.wait_for_window()
+        viewer.wait_for_line(SETTLED)
+        self.succeed("render", "scene.gltf", "-o", "at1.png", "--size", "160x120", "--camera", "front", "--time", "1")
+        still = self.screenshot(viewer, 1)
+        self.assertEqual(still, support.read_png(self.read("at1.png")))
+        viewer.do("key", "shift+F12")
+        viewer.do("key", "space")
+        frames = self.path("scene-frames-0001")
+        window_support.wait_for(lambda: len(os.listdir(frames)) >= 4, "recorded frames")
+        viewer.do("key", "space")
+        viewer.after("recorded", lambda: viewer.do("key", "shift+F12"))
+        pictures = [support.read_png(self.read("scene-frames-0001", name)) for name in sorted(os.listdir(frames))]
+        self.assertEqual(pictures[0], still)
+        self.assertEqual(len({picture[3][40] for picture in pictures[:4]}), 4, "each frame shows another moment")
+        # The second frame is a 25th of a second later, however long it took to draw.
+        self.succeed("render", "scene.gltf", "-o", "next.png", "--size", "160x120", "--camera", "front", "--time", "1.04")
+        self.assertEqual(pictures[1], support.read_png(self.read("next.png")))
+        self.close(viewer)
+
+
+if __name__ == "__main__":
+    window_support.skip_without_tools()
+    unittest.main()
