@@ -34,8 +34,9 @@ namespace {
 
 using raster::VertexKind;
 
-constexpr std::size_t kBatch = 64;  // vertices; the texels of that many searches fit the nearest cache
-constexpr std::size_t kGroup = 16;  // of them that are searched from the same move
+constexpr std::size_t kBatch = 64;    // vertices; the texels of that many searches fit the nearest cache
+constexpr std::size_t kBlock = 2048;  // vertices that a thread takes together
+constexpr std::size_t kGroup = 16;    // of them that are searched from the same move
 
 using Batch = std::array<FoundRay, kBatch>;
 
@@ -135,6 +136,12 @@ class CornerLookUp {
     vertices_[count_] = vertex;
     points_[count_++] = allPoints_[vertex];
   }
+  /// Can the vertex be seen from one of two opposite locations?
+  [[nodiscard]] bool mayBeSeen(std::uint32_t vertex) const {
+    const vec3& point = allPoints_[vertex];
+    return trace_[first_]->shaft.mayReach(point) || trace_[last_]->shaft.mayReach(point);
+  }
+  [[nodiscard]] bool isFull() const { return count_ == kBatch; }
   /// Looks up what has been added. Vertices that neither of two opposite locations sees are left alone,
   /// unless `all`.
   void run(bool all) {
@@ -257,15 +264,17 @@ class CornerLookUp {
   std::array<std::uint8_t, kBatch> isInside_{};    ///< a bit for each location
 };
 
-/// Looks up `count` vertices, `vertexAt(i)` each; in batches that do not depend on the threads.
+/// Looks up `count` vertices, `vertexAt(i)` each; in blocks that do not depend on the threads.
 template <class VertexAt>
 void lookUpAll(const CellTrace& trace, std::span<const vec3> points, std::size_t count, bool all,
                const VertexAt& vertexAt, CornerPoints& corners) {
-  core::parallelFor((count + kBatch - 1) / kBatch, 8, [&](std::size_t begin, std::size_t end) {
+  core::parallelFor((count + kBlock - 1) / kBlock, 1, [&](std::size_t begin, std::size_t end) {
     CornerLookUp lookUp(trace, points, corners);
-    for (std::size_t batch = begin; batch < end; ++batch) {
-      for (std::size_t i = batch * kBatch; i < std::min(count, (batch + 1) * kBatch); ++i)
-        lookUp.add(vertexAt(i));
+    for (std::size_t block = begin; block < end; ++block) {
+      for (std::size_t i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
+        if (all || lookUp.mayBeSeen(vertexAt(i))) lookUp.add(vertexAt(i));
+        if (lookUp.isFull()) lookUp.run(all);
+      }
       lookUp.run(all);
     }
   });

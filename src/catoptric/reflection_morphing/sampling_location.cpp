@@ -230,6 +230,7 @@ std::shared_ptr<const SamplingLocation> unpackLocation(std::span<const std::byte
     SampledTrace sampled;
     sampled.map = unpackMap(in);
     sampled.octree = unpackOctree(in, sampled.map, box);
+    sampled.shaft = makeRayShaft(sampled.map);
     if (i > 0 && !(location->traces.back().map.trace < sampled.map.trace))
       refuseDamaged("traces are not in order");
     location->traces.push_back(std::move(sampled));

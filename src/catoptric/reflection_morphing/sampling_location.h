@@ -9,6 +9,7 @@
 
 #include "catoptric/reflection_morphing/ray_map.h"
 #include "catoptric/reflection_morphing/ray_octree.h"
+#include "catoptric/reflection_morphing/ray_shaft.h"
 
 namespace catoptric::reflection_morphing {
 
@@ -21,6 +22,7 @@ struct BakeOptions {
 struct SampledTrace {
   RayMap map;
   RayOctree octree;
+  RayShaft shaft;
 };
 
 struct SamplingLocation {
