@@ -59,7 +59,8 @@ TEST(RayShaft, holdsLittleElse) {
   for (int i = 0; i < 20000; ++i) {
     const vec3 q(uniform(random), uniform(random), std::abs(uniform(random)));
     const bool isHeld = trace.shaft.mayReach(q);
-    const FoundRay found = findRay(trace.map, q, findNearestRay(trace.map, trace.octree.findLeaf(q), q));
+    const OctreeRay& ray = findNearestRay(trace.octree, trace.octree.findLeaf(q), q);
+    const FoundRay found = findRay(trace.table, q, {ray.x, ray.y});
     EXPECT_TRUE(isHeld || !found.isInside);
     held += isHeld ? 1 : 0;
     reflected += found.isInside ? 1 : 0;
