@@ -16,7 +16,7 @@
 //
 // Departures from 2004: eight octree look-ups a vertex are two and seven short searches. It takes a quarter
 // of the time, and where several rays of a trace pass through a vertex (behind a focus) the locations agree
-// on one. Cost: 0.3 us a vertex and core. Source: Martin & Popescu 2004, section 6.
+// on one. Cost: 0.6 us a vertex and core. Source: Martin & Popescu 2004, section 6.
 #include "catoptric/reflection_morphing/corner_look_up.h"
 
 #include <algorithm>

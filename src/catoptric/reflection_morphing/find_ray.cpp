@@ -13,7 +13,7 @@
 //
 // Departures from 2004: the paper takes the nearest ray of the leaf; that is off by up to half the distance
 // of two rays, several pixels. Failures: where several rays of one trace pass through Q (concave mirrors
-// behind their focus) one of them is found. Cost: 12 ns a step. Source: Martin & Popescu 2004, section 6.
+// behind their focus) one of them is found. Source: Martin & Popescu 2004, section 6.
 #include "catoptric/reflection_morphing/find_ray.h"
 
 #include <algorithm>

@@ -10,7 +10,7 @@
 //
 // Departures from 2004: the paper looks every vertex up at every location, and drops what step 3 finds. The
 // result does not depend on the number of threads: blocks are cut at fixed places, the rim is sorted.
-// Cost: 10 ns for a vertex outside of the shafts, else as in corner_look_up.cpp.
+// Cost: that of corner_look_up.cpp for what is inside a shaft.
 // Source: Martin & Popescu 2004, section 6.
 #include <algorithm>
 #include <atomic>

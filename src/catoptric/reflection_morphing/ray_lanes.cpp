@@ -13,7 +13,7 @@
 //   4. After the step: the mirror point lies in the direction that the chart gives, at the interpolated
 //      distance.
 //
-// All in the table's frame. Cost: 8 ns a lane. Source: find_ray.cpp.
+// All in the table's frame. Source: find_ray.cpp.
 #include "catoptric/reflection_morphing/ray_lanes.h"
 
 #include <cmath>

@@ -12,7 +12,7 @@
 //      for its curvature and for rounding.
 //
 // Departures from 2004: the paper has no such test. Where a ray leaves at more than 84 degrees from the axis,
-// as from a sphere, there is no shaft. Cost: 0.3 ms for 256 x 256 rays, 5 ns a point.
+// as from a sphere, there is no shaft.
 #include "catoptric/reflection_morphing/ray_shaft.h"
 
 #include <algorithm>
