@@ -41,10 +41,13 @@ FrameTimes summarise(const std::vector<renderer::FrameTimings>& frames,
   const double verticesMs = quantile(collect(&renderer::FrameTimings::virtualVerticesMs), 0.5);
   if (verticesMs > 0) times.virtualVerticesPerS = double(counters.virtualVertices) / (0.001 * verticesMs);
   const double lookUpMs = quantile(collect(&renderer::FrameTimings::lookUpMs), 0.5);
+  // A vertex counts once, when it has been through all traces.
+  const auto traces = double(std::max<std::uint64_t>(counters.morphedTraces, 1));
   if (counters.lookedUpVertices > 0)
-    times.dynamicVerticesPerS = double(counters.lookedUpVertices) / (0.001 * (lookUpMs + verticesMs));
+    times.dynamicVerticesPerS =
+        double(counters.lookedUpVertices) / traces / (0.001 * (lookUpMs + verticesMs));
   else if (isMorphing && verticesMs > 0)
-    times.staticVerticesPerS = double(counters.virtualVertices) / (0.001 * verticesMs);
+    times.staticVerticesPerS = double(counters.virtualVertices) / traces / (0.001 * verticesMs);
   times.warpMs = quantile(collect(&renderer::FrameTimings::warpMs), 0.5);
   if (times.warpMs > 0) times.zexelsPerS = double(counters.zexels) / (0.001 * times.warpMs);
   if (times.medianMs > 0) times.raysPerS = double(counters.rays) / (0.001 * times.medianMs);

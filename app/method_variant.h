@@ -22,7 +22,7 @@ struct MethodVariant {
   renderer::Method method = renderer::Method::Auto;
   renderer::Solver solver = renderer::Solver::Auto;
   bool boxCorrected = true;
-  bool allDynamic = false;                 ///< of morphing
+  bool allDynamic = false;                 ///< of morphing: through all traces
   bool byDefault = true;                   ///< false: only where it is named
   std::optional<renderer::Merge> merge{};  ///< "virtual-refined+stencil"; none: as --merge says
 };
@@ -48,7 +48,7 @@ struct FrameTimes {
   double warpMs = 0;                       ///< median
   /// 0 where the variant has none; from the medians.
   double virtualVerticesPerS = 0, zexelsPerS = 0, raysPerS = 0;
-  double dynamicVerticesPerS = 0, staticVerticesPerS = 0;  ///< of morphing
+  double dynamicVerticesPerS = 0, staticVerticesPerS = 0;  ///< of morphing: through all traces
   renderer::FrameCounters counters;
 };
 

@@ -21,6 +21,7 @@ struct MethodCounters {
   double virtualVerticesMs = 0;
   std::uint64_t lookedUpVertices = 0;  ///< of morphing: searched in the octrees, the others were kept
   double lookUpMs = 0;
+  std::uint64_t morphedTraces = 0;    ///< how many traces the vertices were morphed for
   std::uint64_t zexels = 0;           ///< warped
   std::uint64_t zexelPixels = 0;      ///< mirror pixels that zexels were warped to show
   std::uint64_t uncoveredPixels = 0;  ///< of which no zexel reached

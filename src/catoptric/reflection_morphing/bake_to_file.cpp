@@ -121,7 +121,7 @@ BakedLocation describe(std::span<const std::byte> record, const core::Box& box, 
   std::size_t leaves = 0, leafRays = 0;
   for (const SampledTrace& trace : location->traces) {
     const RayOctreeStatistics statistics = measure(trace.octree);
-    result.rays += trace.map.countRays();
+    result.rays += trace.table.countRays();
     leaves += statistics.leaves;
     leafRays += statistics.rays;
     result.mostLeafRays = std::max(result.mostLeafRays, statistics.mostRays);

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which ray of a map passes through a scene point?
 //
-// In: a continued ray map, scene points (world), for each a texel whose ray passes near it. Out: the first
-// mirror point on the ray through it, the length of the path from there to the point, and whether the ray is
-// one of the trace.
-//   1. Gauss-Newton on the interpolated map, eight searches side by side (ray_lanes.cpp); a lane whose search
-//      has ended gets the next one.
-//   2. A step under a quarter of a texel is taken on the linear map and is the last one: what it leaves is a
-//      hundredth of it. One or two steps are usual.
+// In: a ray table, scene points (world), for each a texel whose ray passes near it. Out: the first mirror
+// point on the ray through it, the length of the path from there to the point, and whether the ray is one of
+// the trace.
+//   1. Gauss-Newton on the interpolated table, eight searches side by side (ray_lanes.cpp). All searches make
+//      their first step, then those that are not at their end the second one, and so on.
+//   2. A step under a tenth of a texel is taken on the linear map and is the last one: what it leaves is a
+//      hundredth of it, more at the rim. One or two steps are usual.
 //   3. A step that leaves the map is shortened to its edge; the second time the search ends there and the
 //      last step is taken anyway, which continues the map linearly.
 //
 // Departures from 2004: the paper takes the nearest ray of the leaf; that is off by up to half the distance
 // of two rays, several pixels. Failures: where several rays of one trace pass through Q (concave mirrors
-// behind their focus) one of them is found. Cost: 20 ns a step. Source: Martin & Popescu 2004, section 6.
+// behind their focus) one of them is found. Source: Martin & Popescu 2004, section 6.
 #include "catoptric/reflection_morphing/find_ray.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "catoptric/reflection_morphing/ray_lanes.h"
@@ -24,115 +25,111 @@ namespace catoptric::reflection_morphing {
 namespace {
 
 constexpr int kMostSteps = 8;
-constexpr float kTolerance = 0.25f;  // texels; the step after it is a hundred times smaller
 constexpr int kMostShortened = 2;
 constexpr int kShortenings = 5;
-
-bool isRay(const RayMap& map, const vec2& p) {
-  const vec2 q = p + 0.5f;
-  if (!(q.x >= 0 && q.y >= 0 && q.x < float(map.size) && q.y < float(map.size))) return false;
-  return map.states[map.at(int(q.x), int(q.y))] == TexelState::Ray;
-}
-
-void prefetch(const RayMap& map, const vec2& p) {
-  const std::size_t at = map.at(int(p.x), int(p.y));
-  for (const std::size_t row : {at, at + std::size_t(map.size)}) {
-    __builtin_prefetch(&map.texels[row]);
-    __builtin_prefetch(&map.texels[row + 1]);
-    __builtin_prefetch(&map.states[row]);
-  }
-}
 
 /// The searches that are under way.
 class RaySearches {
  public:
-  RaySearches(const RayMap& map, std::span<const RayQuery> queries, std::span<FoundRay> found)
-      : map_(map), queries_(queries), found_(found) {}
+  RaySearches(const RayTable& table, RayBatch& batch) : table_(table), batch_(batch) {}
 
-  void run() {
-    for (int lane = 0; lane < kRayLanes; ++lane)
-      if (!startNext(lane)) start(lane, queries_.front());  // idles on something
-    while (busy_ != 0) {
-      evaluateRayLanes(map_, lanes_);
-      for (int lane = 0; lane < kRayLanes; ++lane)
-        if ((busy_ >> lane & 1u) != 0 && advance(lane)) startNext(lane);
+  void run(std::span<const std::uint8_t> which) {
+    std::copy(which.begin(), which.end(), busy_.begin());
+    busyCount_ = which.size();
+    for (const std::uint8_t i : which) {
+      shortened_[i] = 0;
+      prefetch(i);
+    }
+    for (int step = 0; busyCount_ > 0; ++step) {
+      std::size_t next = 0;
+      const std::size_t count = busyCount_;
+      for (std::size_t first = 0; first < count; first += kRayLanes) {
+        const std::size_t lanes = std::min(count - first, std::size_t(kRayLanes));
+        load(first, lanes);
+        evaluateRayLanes(table_, lanes_);
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+          const std::uint8_t i = busy_[first + lane];
+          if (advance(int(lane), i, step == kMostSteps)) busy_[next++] = i;
+        }
+      }
+      busyCount_ = next;
     }
   }
 
  private:
-  bool startNext(int lane) {
-    if (next_ == queries_.size()) {
-      busy_ &= ~(1u << lane);
-      return false;
+  void prefetch(std::uint8_t i) const {
+    const std::size_t at = table_.at(int(batch_.x[i]), int(batch_.y[i]));
+    __builtin_prefetch(&table_.leaving[at]);
+    __builtin_prefetch(&table_.leaving[at + std::size_t(table_.size)]);
+    __builtin_prefetch(&table_.cells[at]);
+  }
+  /// Lanes that are left over repeat the last search.
+  void load(std::size_t first, std::size_t lanes) {
+    for (std::size_t lane = 0; lane < kRayLanes; ++lane) {
+      const std::uint8_t i = busy_[first + std::min(lane, lanes - 1)];
+      assert(table_.isFilled({batch_.x[i], batch_.y[i]}));
+      lanes_.x[lane] = batch_.x[i];
+      lanes_.y[lane] = batch_.y[i];
+      for (int k = 0; k < 3; ++k) lanes_.point[k][lane] = batch_.point[k][i];
     }
-    start(lane, queries_[next_]);
-    answers_[lane] = queries_[next_].answer;
-    busy_ |= 1u << lane;
-    ++next_;
-    return true;
-  }
-  void start(int lane, const RayQuery& query) {
-    for (int k = 0; k < 3; ++k) lanes_.point[k][lane] = query.point[k];
-    steps_[lane] = shortened_[lane] = 0;
-    moveTo(lane, query.texel);
-  }
-  void moveTo(int lane, const vec2& p) {
-    assert(map_.isFilled(p));
-    const int x = int(p.x), y = int(p.y);
-    lanes_.cell[lane] = &map_.texels[map_.at(x, y)];
-    lanes_.x[lane] = p.x;
-    lanes_.y[lane] = p.y;
-    lanes_.u[lane] = p.x - float(x);
-    lanes_.v[lane] = p.y - float(y);
   }
 
-  /// Steps 2 and 3 for a lane that has been evaluated; true when its search has ended.
-  bool advance(int lane) {
-    const vec2 p(lanes_.x[lane], lanes_.y[lane]), step(lanes_.stepX[lane], lanes_.stepY[lane]);
-    const bool hasConverged = glm::dot(step, step) < kTolerance * kTolerance;
-    if (!hasConverged && steps_[lane] < kMostSteps && shortened_[lane] < kMostShortened) {
+  /// Steps 2 and 3 for a lane that has been evaluated; true while its search goes on.
+  bool advance(int lane, std::uint8_t i, bool isLast) {
+    const int at = lanes_.nextCell[lane];
+    const unsigned cell = at < 0 ? 0u : table_.cells[std::size_t(at)];
+    const bool isShort = lanes_.isShort[lane] != 0;
+    if (!isShort && !isLast && shortened_[i] < kMostShortened && moveOn(lane, i, cell)) return true;
+    for (int k = 0; k < 3; ++k) batch_.mirror[k][i] = lanes_.mirror[k][lane];
+    batch_.rest[i] = lanes_.rest[lane];
+    const bool isInside =
+        isShort && lanes_.isAhead[lane] != 0 && (cell & (RayTable::kRay << lanes_.nextCorner[lane])) != 0;
+    batch_.isInside[i] = isInside ? 1 : 0;
+    if (isInside && (cell & RayTable::kFilled) != 0) {
+      batch_.x[i] = lanes_.nextX[lane];
+      batch_.y[i] = lanes_.nextY[lane];
+    }
+    return false;
+  }
+  bool moveOn(int lane, std::uint8_t i, unsigned cell) {
+    const vec2 p(lanes_.x[lane], lanes_.y[lane]);
+    vec2 next(lanes_.nextX[lane], lanes_.nextY[lane]);
+    if ((cell & RayTable::kFilled) == 0) {
+      const vec2 step = next - p;
       float part = 1;
-      vec2 next = p + step;
-      for (int k = 0; k < kShortenings && !map_.isFilled(next); ++k) next = p + (part *= 0.5f) * step;
-      if (map_.isFilled(next)) {
-        moveTo(lane, next);
-        ++steps_[lane];
-        if (part < 1) ++shortened_[lane];
-        return false;
-      }
+      for (int k = 0; k < kShortenings && !table_.isFilled(next); ++k) next = p + (part *= 0.5f) * step;
+      if (!table_.isFilled(next)) return false;
+      ++shortened_[i];
     }
-    FoundRay& found = found_[answers_[lane]];
-    found.mirrorPoint = {lanes_.mirror[0][lane], lanes_.mirror[1][lane], lanes_.mirror[2][lane]};
-    found.rest = lanes_.rest[lane];
-    found.isInside = hasConverged && lanes_.along[lane] > 0 && isRay(map_, p + step);
-    found.texel = found.isInside && map_.isFilled(p + step) ? p + step : p;
+    batch_.x[i] = next.x;
+    batch_.y[i] = next.y;
+    prefetch(i);
     return true;
   }
 
-  const RayMap& map_;
-  std::span<const RayQuery> queries_;
-  std::span<FoundRay> found_;
+  const RayTable& table_;
+  RayBatch& batch_;
   RayLanes lanes_;
-  std::uint32_t answers_[kRayLanes] = {};
-  int steps_[kRayLanes] = {}, shortened_[kRayLanes] = {};
-  std::size_t next_ = 0;
-  unsigned busy_ = 0;
+  std::array<std::uint8_t, kMostSearches> busy_, shortened_;
+  std::size_t busyCount_ = 0;
 };
 
 }  // namespace
 
-void findRays(const RayMap& map, std::span<const RayQuery> queries, std::span<FoundRay> found) {
-  if (queries.empty()) return;
-  for (const RayQuery& query : queries) prefetch(map, query.texel);
-  RaySearches(map, queries, found).run();
+void findRays(const RayTable& table, std::span<const std::uint8_t> which, RayBatch& batch) {
+  assert(which.size() <= kMostSearches);
+  if (!which.empty()) RaySearches(table, batch).run(which);
 }
 
-FoundRay findRay(const RayMap& map, const vec3& scenePoint, std::uint32_t seed) {
-  const auto size = std::uint32_t(map.size);
-  const RayQuery query{scenePoint, vec2(seed % size, seed / size), 0};
-  FoundRay found;
-  findRays(map, std::span(&query, 1), std::span(&found, 1));
-  return found;
+FoundRay findRay(const RayTable& table, const vec3& scenePoint, const vec2& texel) {
+  RayBatch batch;
+  for (int k = 0; k < 3; ++k) batch.point[k][0] = scenePoint[k];
+  batch.x[0] = texel.x;
+  batch.y[0] = texel.y;
+  const std::uint8_t first = 0;
+  findRays(table, std::span(&first, 1), batch);
+  return {
+      {batch.mirror[0][0], batch.mirror[1][0], batch.mirror[2][0]}, batch.rest[0], batch.isInside[0] != 0};
 }
 
 }  // namespace catoptric::reflection_morphing

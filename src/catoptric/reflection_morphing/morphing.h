@@ -19,9 +19,7 @@ using CellTrace = std::array<const SampledTrace*, 8>;
 struct CornerPoints {
   std::vector<std::array<vec4, 8>> points;
   std::vector<raster::VertexKind> kinds;
-  // Memory of the look-up.
-  std::vector<std::uint8_t> isLookedUp;
-  std::vector<std::uint32_t> rim;
+  std::vector<std::uint32_t> rim;  ///< memory of the look-up
 };
 
 /// Eight look-ups a vertex. Reflected: seen from at least one location. DoublyVirtual: not, but a triangle

@@ -9,12 +9,11 @@
 namespace catoptric::reflection_morphing {
 namespace {
 
-constexpr int kRaysAcross = 20;
+constexpr std::size_t kMostRays = 150;
 const vec3 kLocationColor(0.2f, 0.5f, 1.0f), kCellColor(0.9f, 0.3f, 0.7f), kRayColor(0.4f, 0.6f, 0.15f),
     kLeafRayColor(1.0f, 0.9f, 0.1f);
 
-void addRay(const RayMap& map, std::size_t texel, double length, const vec3& color, raster::Marks& marks) {
-  const RayTexel& ray = map.texels[texel];
+void addRay(const OctreeRay& ray, double length, const vec3& color, raster::Marks& marks) {
   marks.addLine(ray.origin, dvec3(ray.origin) + length * dvec3(ray.direction), color);
 }
 
@@ -36,7 +35,7 @@ void addLeaf(const SampledTrace& trace, const vec3& point, double rayLength, ras
     marks.addBox(low, low + 2.0 * half, kCellColor);
   }
   for (const std::uint32_t ray : octree.findLeaf(point))
-    addRay(trace.map, ray, rayLength, kLeafRayColor, marks);
+    addRay(octree.rays[ray], rayLength, kLeafRayColor, marks);
 }
 
 }  // namespace
@@ -52,14 +51,12 @@ void ReflectionMorphingMethod::collectMarks(const scene::WorldGeometry& world, s
       *locations_.at(cell_->locations[std::size_t(heaviest - cell_->weights.begin())]);
   const SampledTrace* trace = location.findTrace({reflector});
   if (!trace) return;
-  const RayMap& map = trace->map;
-  const int stride = std::max(1, map.size / kRaysAcross);
-  for (int y = 0; y < map.size; y += stride)
-    for (int x = 0; x < map.size; x += stride)
-      if (map.states[map.at(x, y)] == TexelState::Ray) {
-        addRay(map, map.at(x, y), rayLength, kRayColor, marks);
-        marks.addLine(location.position, map.texels[map.at(x, y)].origin, 0.4f * kLocationColor);
-      }
+  const std::vector<OctreeRay>& rays = trace->octree.rays;
+  const std::size_t stride = std::max<std::size_t>(1, rays.size() / kMostRays);
+  for (std::size_t i = 0; i < rays.size(); i += stride) {
+    addRay(rays[i], rayLength, kRayColor, marks);
+    marks.addLine(location.position, rays[i].origin, 0.4f * kLocationColor);
+  }
   if (options.point) addLeaf(*trace, vec3(*options.point), rayLength, marks);
 }
 

@@ -184,9 +184,6 @@ void continueRayMap(RayMap& map) {
       map.states[at] = TexelState::Continued;
     }
   }
-  map.cells.assign(map.states.size(), 0);
-  for (int y = 0; y + 1 < map.size; ++y)
-    for (int x = 0; x + 1 < map.size; ++x) map.cells[map.at(x, y)] = map.isCell(x, y) ? 1 : 0;
 }
 
 }  // namespace catoptric::reflection_morphing

@@ -45,8 +45,7 @@ struct RayMap {
   int size = 0;            ///< texels along an edge
   std::vector<RayTexel> texels;
   std::vector<TexelState> states;
-  std::vector<float> lengths;       ///< of each ray, where static objects are kept; while it is being baked
-  std::vector<std::uint8_t> cells;  ///< 1 where isCell(); made by continueRayMap()
+  std::vector<float> lengths;  ///< of each ray, where static objects are kept; while it is being baked
 
   [[nodiscard]] std::size_t at(int x, int y) const {
     return std::size_t(y) * std::size_t(size) + std::size_t(x);
@@ -56,12 +55,6 @@ struct RayMap {
     const TexelState* s = &states[at(x, y)];
     return s[0] != TexelState::Empty && s[1] != TexelState::Empty && s[size] != TexelState::Empty &&
            s[size + 1] != TexelState::Empty;
-  }
-  /// Can the map be interpolated at p, in texels? Of a continued map.
-  [[nodiscard]] bool isFilled(const vec2& p) const {
-    const bool isOnMap = unsigned(p.x >= 0) & unsigned(p.y >= 0) & unsigned(p.x < float(size - 1)) &
-                         unsigned(p.y < float(size - 1));
-    return isOnMap && cells[at(int(p.x), int(p.y))] != 0;
   }
   [[nodiscard]] std::size_t countRays() const;
 };

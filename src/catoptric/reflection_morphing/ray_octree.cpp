@@ -51,14 +51,14 @@ std::vector<std::uint32_t> pickRays(const RayMap& map) {
   return rays;
 }
 
-float squaredDistance(const RayTexel& ray, const vec3& point) {
+float squaredDistance(const OctreeRay& ray, const vec3& point) {
   const vec3 e = point - ray.origin;
   const float along = std::max(glm::dot(e, ray.direction), 0.0f);
   const vec3 across = e - along * ray.direction;
   return glm::dot(across, across);
 }
 
-bool passesThrough(const RayTexel& ray, float length, const vec3& lower, const vec3& upper) {
+bool passesThrough(const OctreeRay& ray, float length, const vec3& lower, const vec3& upper) {
   float least = 0, most = length;
   for (int axis = 0; axis < 3; ++axis) {
     const float inverse = 1 / ray.direction[axis];
@@ -70,10 +70,21 @@ bool passesThrough(const RayTexel& ray, float length, const vec3& lower, const v
   return least <= most;
 }
 
+std::uint32_t findNearest(const RayOctree& octree, std::span<const std::uint32_t> rays, const vec3& point) {
+  std::uint32_t nearest = rays[0];
+  if (rays.size() == 1) return nearest;
+  float least = std::numeric_limits<float>::infinity();
+  for (const std::uint32_t ray : rays) {
+    const float distance = squaredDistance(octree.rays[ray], point);
+    if (distance < least) least = distance, nearest = ray;
+  }
+  return nearest;
+}
+
 class Builder {
  public:
-  Builder(const RayMap& map, const RayOctreeOptions& options, RayOctree& octree)
-      : map_(map), options_(options), octree_(octree) {}
+  Builder(std::vector<float> lengths, const RayOctreeOptions& options, RayOctree& octree)
+      : lengths_(std::move(lengths)), options_(options), octree_(octree) {}
 
   /// Steps 2 to 4 for a node and what is below it; `rays` is not empty.
   void build(std::uint32_t node, const std::vector<std::uint32_t>& rays, const vec3& lower, const vec3& upper,
@@ -91,38 +102,50 @@ class Builder {
       const vec3 low = lower + half * vec3(c & 1, (c >> 1) & 1, c >> 2), high = low + half;
       passing.clear();
       for (const std::uint32_t ray : rays)
-        if (passesThrough(map_.texels[ray], lengthOf(ray), low, high)) passing.push_back(ray);
-      if (passing.empty()) passing.push_back(findNearestRay(map_, rays, 0.5f * (low + high)));
+        if (passesThrough(octree_.rays[ray], lengthOf(ray), low, high)) passing.push_back(ray);
+      if (passing.empty()) passing.push_back(findNearest(octree_, rays, 0.5f * (low + high)));
       build(children + c, passing, low, high, depth + 1);
     }
   }
 
  private:
   [[nodiscard]] float lengthOf(std::uint32_t ray) const {
-    return map_.lengths.empty() ? std::numeric_limits<float>::infinity() : map_.lengths[ray];
+    return lengths_.empty() ? std::numeric_limits<float>::infinity() : lengths_[ray];
   }
   void makeLeaf(std::uint32_t node, const std::vector<std::uint32_t>& rays) {
     const auto most = std::size_t(options_.mostLeafRays);
     const std::size_t count = std::min(rays.size(), most);
-    octree_.nodes[node] = {std::uint32_t(octree_.rays.size()), std::uint32_t(count)};
-    for (std::size_t i = 0; i < count; ++i) octree_.rays.push_back(rays[i * rays.size() / count]);
+    octree_.nodes[node] = {std::uint32_t(octree_.leafRays.size()), std::uint32_t(count)};
+    for (std::size_t i = 0; i < count; ++i) octree_.leafRays.push_back(rays[i * rays.size() / count]);
   }
 
-  const RayMap& map_;
+  std::vector<float> lengths_;  ///< by ray; empty: they do not end
   const RayOctreeOptions& options_;
   RayOctree& octree_;
 };
 
 }  // namespace
 
+OctreeRay makeOctreeRay(const RayMap& map, std::uint32_t texel) {
+  const auto size = std::uint32_t(map.size);
+  const RayTexel& ray = map.texels[texel];
+  return {ray.origin, float(texel % size), ray.direction, float(texel / size)};
+}
+
 RayOctree makeRayOctree(const RayMap& map, const RayOctreeOptions& options) {
   RayOctree octree;
   octree.lower = vec3(options.box.lower);
   octree.upper = vec3(options.box.upper);
-  const std::vector<std::uint32_t> rays = pickRays(map);
+  std::vector<std::uint32_t> rays;
+  std::vector<float> lengths;
+  for (const std::uint32_t texel : pickRays(map)) {
+    rays.push_back(std::uint32_t(octree.rays.size()));
+    octree.rays.push_back(makeOctreeRay(map, texel));
+    if (!map.lengths.empty()) lengths.push_back(map.lengths[texel]);
+  }
   if (rays.empty()) return octree;
   octree.nodes.resize(1);
-  Builder(map, options, octree).build(0, rays, octree.lower, octree.upper, 0);
+  Builder(std::move(lengths), options, octree).build(0, rays, octree.lower, octree.upper, 0);
   return octree;
 }
 
@@ -150,18 +173,12 @@ std::span<const std::uint32_t> RayOctree::findLeaf(const vec3& point) const {
     half *= 0.5f;
     node = child;
   }
-  return std::span(rays).subspan(nodes[node].first, nodes[node].count);
+  return std::span(leafRays).subspan(nodes[node].first, nodes[node].count);
 }
 
-std::uint32_t findNearestRay(const RayMap& map, std::span<const std::uint32_t> leaf, const vec3& point) {
-  std::uint32_t nearest = leaf[0];
-  if (leaf.size() == 1) return nearest;
-  float least = std::numeric_limits<float>::infinity();
-  for (const std::uint32_t ray : leaf) {
-    const float distance = squaredDistance(map.texels[ray], point);
-    if (distance < least) least = distance, nearest = ray;
-  }
-  return nearest;
+const OctreeRay& findNearestRay(const RayOctree& octree, std::span<const std::uint32_t> leaf,
+                                const vec3& point) {
+  return octree.rays[findNearest(octree, leaf, point)];
 }
 
 }  // namespace catoptric::reflection_morphing

@@ -16,17 +16,26 @@ struct RayOctreeOptions {
   int mostLeafRays = 12;  ///< a leaf at the last level keeps that many, evenly chosen
 };
 
+/// A ray of the map that the octree may name.
+struct OctreeRay {
+  vec3 origin{0};
+  float x = 0;  ///< its texel
+  vec3 direction{0};
+  float y = 0;
+};
+
 /// Linearised: eight children of a node follow each other. Every leaf holds at least one ray.
 struct RayOctree {
   struct Node {
-    std::uint32_t first = 0;  ///< inner node: its first child; leaf: into rays
+    std::uint32_t first = 0;  ///< inner node: its first child; leaf: into leafRays
     std::uint32_t count = 0;  ///< rays of the leaf; 0: inner node
   };
   vec3 lower{0}, upper{1};
   std::vector<Node> nodes;
-  std::vector<std::uint32_t> rays;  ///< texels of the map
+  std::vector<std::uint32_t> leafRays;  ///< into rays
+  std::vector<OctreeRay> rays;
 
-  /// Rays of the leaf in which the point lies.
+  /// The rays (leafRays) of the leaf in which the point lies.
   [[nodiscard]] std::span<const std::uint32_t> findLeaf(const vec3& point) const;
 };
 
@@ -39,7 +48,10 @@ struct RayOctreeStatistics {
 [[nodiscard]] RayOctreeStatistics measure(const RayOctree& octree);
 
 /// The ray of `leaf` that passes nearest to the point.
-[[nodiscard]] std::uint32_t findNearestRay(const RayMap& map, std::span<const std::uint32_t> leaf,
-                                           const vec3& point);
+[[nodiscard]] const OctreeRay& findNearestRay(const RayOctree& octree, std::span<const std::uint32_t> leaf,
+                                              const vec3& point);
+
+/// The ray of the octree at a texel.
+[[nodiscard]] OctreeRay makeOctreeRay(const RayMap& map, std::uint32_t texel);
 
 }  // namespace catoptric::reflection_morphing

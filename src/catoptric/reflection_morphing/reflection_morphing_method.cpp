@@ -162,6 +162,7 @@ void ReflectionMorphingMethod::drawObjects(raster::FrameContext& frame, const ra
 
 void ReflectionMorphingMethod::render(raster::FrameContext& frame, const raster::Chain& chain,
                                       const raster::Level& parent, raster::Level& target) {
+  ++frame.counters.morphedTraces;
   drawObjects(frame, chain, parent, false, target);
   if (!isMoving_.empty()) drawObjects(frame, chain, parent, true, target);
   // 3

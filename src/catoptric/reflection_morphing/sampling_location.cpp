@@ -155,13 +155,32 @@ void packOctree(const RayOctree& octree, const RayMap& map, ByteWriter& out) {
   }
   out.put(std::uint32_t(nodes.size()));
   out.putAll(std::span<const std::uint32_t>(nodes));
-  out.put(std::uint32_t(octree.rays.size()));
+  out.put(std::uint32_t(octree.leafRays.size()));
+  std::vector<std::uint32_t> texels;
+  texels.reserve(octree.leafRays.size());
+  for (const std::uint32_t ray : octree.leafRays)
+    texels.push_back(std::uint32_t(map.at(int(octree.rays[ray].x), int(octree.rays[ray].y))));
   if (map.texels.size() > 65536) {
-    out.putAll(std::span<const std::uint32_t>(octree.rays));
+    out.putAll(std::span<const std::uint32_t>(texels));
     return;
   }
-  const std::vector<std::uint16_t> narrow(octree.rays.begin(), octree.rays.end());
+  const std::vector<std::uint16_t> narrow(texels.begin(), texels.end());
   out.putAll(std::span<const std::uint16_t>(narrow));
+}
+
+/// Turns the texels in leafRays into indices of rays.
+void nameRays(const RayMap& map, RayOctree& octree) {
+  const auto size = std::uint32_t(map.size);
+  std::vector<std::uint32_t> names(map.texels.size(), core::kNoId);
+  for (std::uint32_t& ray : octree.leafRays) {
+    if (ray % size + 1 >= size || ray / size + 1 >= size || !map.isCell(int(ray % size), int(ray / size)))
+      refuseDamaged("an octree names a ray that is not there");
+    if (names[ray] == core::kNoId) {
+      names[ray] = std::uint32_t(octree.rays.size());
+      octree.rays.push_back(makeOctreeRay(map, ray));
+    }
+    ray = names[ray];
+  }
 }
 
 RayOctree unpackOctree(ByteReader& in, const RayMap& map, const core::Box& box) {
@@ -171,21 +190,18 @@ RayOctree unpackOctree(ByteReader& in, const RayMap& map, const core::Box& box) 
   const auto nodes = in.getAll<std::uint32_t>(in.get<std::uint32_t>());
   const auto rayCount = in.get<std::uint32_t>();
   if (map.texels.size() > 65536) {
-    octree.rays = in.getAll<std::uint32_t>(rayCount);
+    octree.leafRays = in.getAll<std::uint32_t>(rayCount);
   } else {
     const auto narrow = in.getAll<std::uint16_t>(rayCount);
-    octree.rays.assign(narrow.begin(), narrow.end());
+    octree.leafRays.assign(narrow.begin(), narrow.end());
   }
-  const auto size = std::uint32_t(map.size);
-  for (const std::uint32_t ray : octree.rays)
-    if (ray % size + 1 >= size || ray / size + 1 >= size || !map.isCell(int(ray % size), int(ray / size)))
-      refuseDamaged("an octree names a ray that is not there");
+  nameRays(map, octree);
   if (nodes.empty()) refuseDamaged("an octree is empty");
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const RayOctree::Node node{nodes[i] >> kCountBits, nodes[i] & ((1u << kCountBits) - 1)};
     // Children lie behind their parent: a search ends.
     const bool isGood = node.count == 0 ? node.first > i && std::size_t(node.first) + 8 <= nodes.size()
-                                        : std::size_t(node.first) + node.count <= octree.rays.size();
+                                        : std::size_t(node.first) + node.count <= octree.leafRays.size();
     if (!isGood) refuseDamaged("an octree leads nowhere");
     octree.nodes.push_back(node);
   }
@@ -196,8 +212,8 @@ RayOctree unpackOctree(ByteReader& in, const RayMap& map, const core::Box& box) 
 
 const SampledTrace* SamplingLocation::findTrace(const Trace& trace) const {
   const auto at = std::lower_bound(traces.begin(), traces.end(), trace,
-                                   [](const SampledTrace& s, const Trace& t) { return s.map.trace < t; });
-  return at != traces.end() && at->map.trace == trace ? &*at : nullptr;
+                                   [](const SampledTrace& s, const Trace& t) { return s.table.trace < t; });
+  return at != traces.end() && at->table.trace == trace ? &*at : nullptr;
 }
 
 std::vector<std::byte> bakeLocation(const MirrorRays& rays, const dvec3& position,
@@ -227,10 +243,9 @@ std::shared_ptr<const SamplingLocation> unpackLocation(std::span<const std::byte
   const auto count = in.get<std::uint32_t>();
   if (count > kMostTraces) refuseDamaged("a location has too many traces");
   for (std::uint32_t i = 0; i < count; ++i) {
-    SampledTrace sampled;
-    sampled.map = unpackMap(in);
-    sampled.octree = unpackOctree(in, sampled.map, box);
-    if (i > 0 && !(location->traces.back().map.trace < sampled.map.trace))
+    const RayMap map = unpackMap(in);
+    SampledTrace sampled{makeRayTable(map), unpackOctree(in, map, box), makeRayShaft(map)};
+    if (i > 0 && !(location->traces.back().table.trace < sampled.table.trace))
       refuseDamaged("traces are not in order");
     location->traces.push_back(std::move(sampled));
   }

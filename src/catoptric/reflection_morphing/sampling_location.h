@@ -9,6 +9,8 @@
 
 #include "catoptric/reflection_morphing/ray_map.h"
 #include "catoptric/reflection_morphing/ray_octree.h"
+#include "catoptric/reflection_morphing/ray_shaft.h"
+#include "catoptric/reflection_morphing/ray_table.h"
 
 namespace catoptric::reflection_morphing {
 
@@ -19,8 +21,9 @@ struct BakeOptions {
 
 /// One trace at one location.
 struct SampledTrace {
-  RayMap map;
+  RayTable table;
   RayOctree octree;
+  RayShaft shaft;
 };
 
 struct SamplingLocation {

@@ -75,6 +75,7 @@ struct FrameCounters {
   std::uint64_t virtualTriangles = 0;  ///< drawn into reflection images
   std::uint64_t fragmentTests = 0;     ///< Exact: pixels that met a triangle offered to them, or did not
   std::uint64_t lookedUpVertices = 0;  ///< Morphing: searched in the octrees in this frame
+  std::uint64_t morphedTraces = 0;     ///< Morphing: traces that the vertices went through, of one sample
   std::uint64_t reflectorsDrawn = 0, reflectorsCulled = 0;
   std::uint64_t rays = 0;             ///< RayTrace only
   std::uint64_t zexels = 0;           ///< warped

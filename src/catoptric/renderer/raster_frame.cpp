@@ -239,6 +239,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   frame.timings.totalMs += millisecondsSince(start);
   frame.timings.lookUpMs += counters.lookUpMs;
   frame.counters.lookedUpVertices += counters.lookedUpVertices;
+  frame.counters.morphedTraces = counters.morphedTraces;
   frame.timings.virtualVerticesMs += counters.virtualVerticesMs;
   frame.timings.reflectionMs = frame.timings.totalMs - frame.timings.primaryMs;
   frame.counters.virtualVertices += counters.virtualVertices;

@@ -123,15 +123,15 @@ Sketch sketchRayOctree(const SampledTrace& trace, const dvec3& point) {
       sketch.addBox(box, colourOfNumber(node.count, 0.8f), 1);
   });
   const vec3 at(point);
-  for (const std::uint32_t ray : octree.findLeaf(at)) {
-    const RayTexel& texel = trace.map.texels[ray];
-    const double length = glm::length(dvec3(texel.origin) - point) * 1.1;
-    sketch.addLine(trace.map.location, texel.origin, kGrey, 1.2f);
-    sketch.addLine(texel.origin, dvec3(texel.origin) + length * dvec3(texel.direction), kRed, 1.2f);
+  const vec3& location = trace.table.location;
+  for (const std::uint32_t index : octree.findLeaf(at)) {
+    const OctreeRay& ray = octree.rays[index];
+    const double length = glm::length(dvec3(ray.origin) - point) * 1.1;
+    sketch.addLine(location, ray.origin, kGrey, 1.2f);
+    sketch.addLine(ray.origin, dvec3(ray.origin) + length * dvec3(ray.direction), kRed, 1.2f);
   }
-  const std::uint32_t nearest = findNearestRay(trace.map, octree.findLeaf(at), at);
-  sketch.addDot(trace.map.texels[nearest].origin, kBlack, 4);
-  sketch.addDot(trace.map.location, kBlack, 6);
+  sketch.addDot(findNearestRay(octree, octree.findLeaf(at), at).origin, kBlack, 4);
+  sketch.addDot(location, kBlack, 6);
   sketch.addDot(point, kRed, 6);
   return sketch;
 }

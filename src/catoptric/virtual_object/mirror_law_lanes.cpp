@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// One loop over the lanes, written once; the compiler makes vectors of it, and it is compiled twice: for the
-// processors that everyone has and for AVX2. Products and sums are not fused, so both give the same bits.
+// One loop over the lanes, written once; the compiler makes vectors of it (core/widest_vectors.h).
 #include "catoptric/virtual_object/mirror_law_lanes.h"
 
 #include <cmath>
 
+#include "catoptric/core/widest_vectors.h"
 #include "catoptric/virtual_object/mesh_walk.h"
 
 namespace catoptric::virtual_object {
 namespace {
 
-#if defined(__x86_64__) && defined(__GNUC__)
-#define CATOPTRIC_HAS_AVX2_CLONE
-#endif
-
 /// MirrorLaw and computeNewtonStep of reflection_point.h, in the same order.
-__attribute__((always_inline)) inline void evaluateAll(Lanes& s, const vec3& eye) {
+CATOPTRIC_INLINE void evaluateAll(Lanes& s, const vec3& eye) {
   const float ex = eye.x, ey = eye.y, ez = eye.z;
   for (int i = 0; i < kLanes; ++i) {
     const float u = s.u[i], v = s.v[i];
@@ -71,24 +67,9 @@ __attribute__((always_inline)) inline void evaluateAll(Lanes& s, const vec3& eye
   }
 }
 
-void evaluateAnywhere(Lanes& lanes, const vec3& eye) {
-  evaluateAll(lanes, eye);
-}
-
-#ifdef CATOPTRIC_HAS_AVX2_CLONE
-__attribute__((target("avx2"))) void evaluateWithAvx2(Lanes& lanes, const vec3& eye) {
-  evaluateAll(lanes, eye);
-}
-#endif
-
-using Evaluate = void (*)(Lanes&, const vec3&);
-
-Evaluate chooseEvaluate() {
-#ifdef CATOPTRIC_HAS_AVX2_CLONE
-  if (__builtin_cpu_supports("avx2")) return evaluateWithAvx2;
-#endif
-  return evaluateAnywhere;
-}
+struct EvaluateAll {
+  CATOPTRIC_INLINE static void run(Lanes& lanes, const vec3& eye) { evaluateAll(lanes, eye); }
+};
 
 }  // namespace
 
@@ -110,8 +91,7 @@ void Lanes::setTriangle(int lane, const LaneTriangle& t) {
 }
 
 void evaluateLanes(Lanes& lanes, const vec3& eye) {
-  static const Evaluate evaluate = chooseEvaluate();
-  evaluate(lanes, eye);
+  core::runOnWidestVectors<EvaluateAll>(lanes, eye);
 }
 
 bool walkLane(std::span<const LaneTriangle> triangles, LanePoint& at, float du, float dv) {

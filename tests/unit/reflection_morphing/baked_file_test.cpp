@@ -30,8 +30,11 @@ int damagedFiles(int fewer) {
 
 void lookUpIn(const SamplingLocation& location) {
   for (const SampledTrace& trace : location.traces)
-    for (const vec3& q : {vec3(0.2f, 0.4f, 1.0f), vec3(-2, 1, 0), vec3(9)})
-      (void)findRay(trace.map, q, findNearestRay(trace.map, trace.octree.findLeaf(q), q));
+    for (const vec3& q : {vec3(0.2f, 0.4f, 1.0f), vec3(-2, 1, 0), vec3(9)}) {
+      const OctreeRay& ray = findNearestRay(trace.octree, trace.octree.findLeaf(q), q);
+      (void)findRay(trace.table, q, {ray.x, ray.y});
+      (void)trace.shaft.mayReach(q);
+    }
 }
 
 /// The code of the error that opening and reading everything ends in; empty: none.

@@ -31,9 +31,13 @@ Quantiles summarise(std::vector<double> values, const char* name) {
   return q;
 }
 
+const OctreeRay& findNearest(const SampledTrace& trace, const dvec3& q) {
+  return findNearestRay(trace.octree, trace.octree.findLeaf(vec3(q)), vec3(q));
+}
+
 FoundRay lookUp(const SampledTrace& trace, const dvec3& q) {
-  const vec3 p(q);
-  return findRay(trace.map, p, findNearestRay(trace.map, trace.octree.findLeaf(p), p));
+  const OctreeRay& ray = findNearest(trace, q);
+  return findRay(trace.table, vec3(q), {ray.x, ray.y});
 }
 
 TEST(RayMap, raysObeyTheMirrorLaw) {
@@ -85,9 +89,8 @@ TEST(FindRay, findsTheRayThatPassesThroughAPoint) {
     errors.push_back(measurePixels(kEye, dvec3(found.mirrorPoint), known.mirrorPoint, world.reflectors[0]));
     const double length = glm::length(dvec3(found.mirrorPoint) - kEye) + double(found.rest);
     wrongLengths += std::abs(length - known.pathLength) > 0.002 ? 1 : 0;
-    const vec3 q(known.scenePoint);
-    const RayTexel& ray = trace.map.texels[findNearestRay(trace.map, trace.octree.findLeaf(q), q)];
-    nearest.push_back(measurePixels(kEye, dvec3(ray.origin), known.mirrorPoint, world.reflectors[0]));
+    nearest.push_back(measurePixels(kEye, dvec3(findNearest(trace, known.scenePoint).origin),
+                                    known.mirrorPoint, world.reflectors[0]));
   }
   const Quantiles q = summarise(errors, "one location");
   EXPECT_LT(q.median, 0.05);
@@ -108,12 +111,12 @@ TEST(FindRay, aSeedNearbyGivesTheSameRay) {
     const vec3 q(known.scenePoint);
     const FoundRay first = lookUp(trace, known.scenePoint);
     if (!first.isInside) continue;
-    const auto size = std::uint32_t(trace.map.size);
-    const std::uint32_t nearest = findNearestRay(trace.map, trace.octree.findLeaf(q), q);
-    for (const std::uint32_t seed : {nearest + 3, nearest - 3, nearest + 3 * size, nearest - 3 * size}) {
-      if (seed >= size * (size - 1) || !trace.map.isCell(int(seed % size), int(seed / size))) continue;
+    const OctreeRay& nearest = findNearest(trace, known.scenePoint);
+    for (const vec2& offset : {vec2(3, 0), vec2(-3, 0), vec2(0, 3), vec2(0, -3)}) {
+      const vec2 seed = vec2(nearest.x, nearest.y) + offset;
+      if (!trace.table.isFilled(seed)) continue;
       ++seeds;
-      same += glm::length(findRay(trace.map, q, seed).mirrorPoint - first.mirrorPoint) < 1e-3f ? 1 : 0;
+      same += glm::length(findRay(trace.table, q, seed).mirrorPoint - first.mirrorPoint) < 1e-3f ? 1 : 0;
     }
   }
   EXPECT_GT(seeds, 500u);
