@@ -16,7 +16,7 @@ constexpr double kRecordedFramesPerS = 25;
 /// "NAME-0001.EXTENSION", the first number that is free; no extension for a folder.
 std::string findFreeName(const std::string& name, const std::string& extension) {
   for (int number = 1;; ++number) {
-    const std::string file = fmt::format("{}-{:04}{}", name, number, extension);
+    std::string file = fmt::format("{}-{:04}{}", name, number, extension);
     if (!std::filesystem::exists(file)) return file;
   }
 }

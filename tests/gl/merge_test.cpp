@@ -9,7 +9,6 @@
 namespace catoptric::gl::test {
 namespace {
 
-using reference::makeFacingQuad;
 using reference::makeMirror;
 using reference::makeQuad;
 using reference::makeUnlit;

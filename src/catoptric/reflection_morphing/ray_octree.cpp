@@ -129,7 +129,8 @@ class Builder {
 OctreeRay makeOctreeRay(const RayMap& map, std::uint32_t texel) {
   const auto size = std::uint32_t(map.size);
   const RayTexel& ray = map.texels[texel];
-  return {ray.origin, float(texel % size), ray.direction, float(texel / size)};
+  const std::uint32_t row = texel / size;
+  return {ray.origin, float(texel - row * size), ray.direction, float(row)};
 }
 
 RayOctree makeRayOctree(const RayMap& map, const RayOctreeOptions& options) {

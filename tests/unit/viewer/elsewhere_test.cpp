@@ -24,7 +24,7 @@ Pixels drawElsewhere(renderer::Renderer& renderer, const scene::Camera& camera,
                      const raster::MarkOptions& marks, std::uint32_t reflector = 0) {
   const core::ImageRgbaF picture = renderer.renderElsewhere(
       camera, {.reflector = reflector, .marks = marks, .widthPx = 96, .heightPx = 72});
-  const auto pixels = picture.pixels();
+  const auto& pixels = picture.pixels();
   return {pixels.begin(), pixels.end()};
 }
 
