@@ -88,6 +88,7 @@ std::string makeTable(const std::vector<MethodVariant>& variants, const std::vec
 
 int run(const Options& options) {
   applyOutput(options.output);
+  checkMerge(options.picture.frame, options.variants);
   const auto loaded = loadScene(options.source, options.scene);
   const scene::Camera camera = chooseCamera(*loaded, options.camera);
   loadEnvironment(*loaded, options.picture.environment);
@@ -143,6 +144,7 @@ Command makeBenchCommand() {
                              setInteger("--repeat", options->repeats, 1, kMostRepeats));
             declareBaked(arguments, options->picture.frame);
             declarePicture(arguments, options->picture);
+            declareMerge(arguments, options->picture.frame);
             declareZexels(arguments, options->picture.frame.zexel);
             declareCamera(arguments, options->camera);
             declareScene(arguments, options->scene);

@@ -110,11 +110,20 @@ std::vector<MethodVariant> parseMethodList(const std::string& text) {
       if (variant.name == word) throw UsageError("--methods: '" + word + "' is named twice");
     chosen.push_back(methodVariants()[std::size_t(at - names.begin())]);
     if (plus == word.size()) continue;
+    if (!canMerge(chosen.back().method))
+      throw UsageError("--methods: '" + word.substr(0, plus) + "' has nothing to merge",
+                       "leave '" + word.substr(plus) + "' out");
     chosen.back().name = word;
     chosen.back().merge = parseMerge("--methods", word.substr(plus + 1));
     chosen.back().description += fmt::format(", merged by {}", word.substr(plus + 1));
   }
   return chosen;
+}
+
+void checkMerge(const renderer::FrameOptions& options, const std::vector<MethodVariant>& variants) {
+  checkMerge(options, std::any_of(variants.begin(), variants.end(), [&](const MethodVariant& variant) {
+               return variant.merge.value_or(options.merge) == renderer::Merge::Texture;
+             }));
 }
 
 renderer::FrameOptions withMethod(renderer::FrameOptions options, const MethodVariant& variant) {

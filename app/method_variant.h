@@ -38,6 +38,9 @@ struct MethodVariant {
 [[nodiscard]] std::vector<MethodVariant> parseMethodList(const std::string& text);
 [[nodiscard]] std::string listMethodNames();
 
+/// Throws UsageError for a --texture-scale that none of them uses.
+void checkMerge(const renderer::FrameOptions& options, const std::vector<MethodVariant>& variants);
+
 [[nodiscard]] renderer::FrameOptions withMethod(renderer::FrameOptions options, const MethodVariant& variant);
 
 /// Many frames of one variant.

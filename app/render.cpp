@@ -191,6 +191,7 @@ Command makeRenderCommand() {
                 declareMotion(arguments, options->scene);
                 declareMethod(arguments, options->frame.frame, options->plainMap);
                 declarePicture(arguments, options->frame);
+                declareMerge(arguments, options->frame.frame);
                 declareZexels(arguments, options->frame.frame.zexel);
                 declareCamera(arguments, options->camera);
                 declareScene(arguments, options->scene);

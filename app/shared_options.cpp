@@ -136,6 +136,15 @@ void declarePicture(Arguments& arguments, PictureOptions& options) {
   arguments.option(
       "--max-error", "PX", "Aim for the tessellation of reflected objects; default 0.5",
       [&](const std::string& text) { frame.maxErrorPx = parseNumber("--max-error", text, 0.01, 1e6); });
+  arguments.option("--environment", "FILE", "Surroundings, .hdr or .exr; default: a built-in sky",
+                   setText(options.environment));
+  arguments.option(
+      "--exposure", "X", "Factor on radiance in PNG and JPEG; default 1",
+      [&](const std::string& text) { options.exposure = float(parseNumber("--exposure", text, 1e-6, 1e6)); });
+}
+
+void declareMerge(Arguments& arguments, renderer::FrameOptions& frame) {
+  arguments.group("Merging");
   arguments.option(
       "--merge", "NAME",
       "How what mirrors show is kept within them: ids (default), stencil, erase, depth, clip, texture",
@@ -143,11 +152,6 @@ void declarePicture(Arguments& arguments, PictureOptions& options) {
   arguments.option(
       "--texture-scale", "X", "Of --merge texture: its resolution, against the picture's; default 1",
       [&](const std::string& text) { frame.textureScale = parseNumber("--texture-scale", text, 0.01, 1); });
-  arguments.option("--environment", "FILE", "Surroundings, .hdr or .exr; default: a built-in sky",
-                   setText(options.environment));
-  arguments.option(
-      "--exposure", "X", "Factor on radiance in PNG and JPEG; default 1",
-      [&](const std::string& text) { options.exposure = float(parseNumber("--exposure", text, 1e-6, 1e6)); });
 }
 
 void declareBaked(Arguments& arguments, renderer::FrameOptions& options) {
@@ -176,7 +180,22 @@ void declareMethod(Arguments& arguments, renderer::FrameOptions& options, bool& 
   arguments.flag("--plain-environment-map", "No parallax correction by the box of the room", plainMap);
 }
 
+bool canMerge(renderer::Method method) {
+  return method != renderer::Method::None && method != renderer::Method::Environment &&
+         method != renderer::Method::RayTrace;
+}
+
+void checkMerge(const renderer::FrameOptions& options, bool usesTexture) {
+  if (options.textureScale != 1 && !usesTexture)
+    throw UsageError("--texture-scale: there is no texture", "add --merge texture");
+}
+
 void checkMethod(const renderer::FrameOptions& options) {
+  if (options.merge != renderer::Merge::Ids && !canMerge(options.method))
+    throw UsageError(
+        fmt::format("--merge: the method '{}' has no use for it", renderer::methodName(options.method)),
+        "leave it out, or add --method virtual");
+  checkMerge(options, options.merge == renderer::Merge::Texture);
   if (options.solver != renderer::Solver::Auto && !renderer::hasSolvers(options.method))
     throw UsageError(fmt::format("--solver: the method '{}' has none", renderer::methodName(options.method)),
                      "leave it out, or add --method virtual");

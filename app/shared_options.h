@@ -45,13 +45,19 @@ void declareMotion(Arguments& arguments, SceneOptions& options);
 void declareCamera(Arguments& arguments, CameraOptions& options);
 /// Of --merge. Throws UsageError; `option` is what the text was given to.
 [[nodiscard]] renderer::Merge parseMerge(const std::string& option, const std::string& text);
-/// What is drawn however it is drawn: --size, --bounces, --samples, --merge, ...
+/// --merge, --texture-scale.
+void declareMerge(Arguments& arguments, renderer::FrameOptions& frame);
+/// Does it draw pictures of mirrors that have to be kept within them?
+[[nodiscard]] bool canMerge(renderer::Method method);
+/// Throws UsageError for a --texture-scale that would change nothing.
+void checkMerge(const renderer::FrameOptions& options, bool usesTexture);
+/// What is drawn however it is drawn: --size, --bounces, --samples, ...
 void declarePicture(Arguments& arguments, PictureOptions& options);
 /// --baked
 void declareBaked(Arguments& arguments, renderer::FrameOptions& options);
 /// --method, --solver, --baked, --plain-environment-map (FrameOptions::boxCorrected is its opposite).
 void declareMethod(Arguments& arguments, renderer::FrameOptions& options, bool& plainMap);
-/// Throws UsageError for a --solver or --baked of another method, which would change nothing.
+/// Throws UsageError for a --solver, --baked, --merge, ... of another method, which would change nothing.
 void checkMethod(const renderer::FrameOptions& options);
 
 /// Verbosity and threads; call it first in a command.

@@ -193,6 +193,7 @@ Command makeViewCommand() {
                 declareMotion(arguments, options->scene);
                 declareMethod(arguments, options->frame.frame, options->plainMap);
                 declarePicture(arguments, options->frame);
+                declareMerge(arguments, options->frame.frame);
                 declareCamera(arguments, options->camera);
                 declareScene(arguments, options->scene);
                 declareOutput(arguments, options->output);

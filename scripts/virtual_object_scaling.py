@@ -9,9 +9,10 @@ import argparse
 import json
 import math
 import os
-import struct
 import subprocess
 import tempfile
+
+from zexel_scaling import Glb
 
 ERRORS = (1e6, 30, 8, 2, 0.5, 0.2, 0.08, 0.03)
 SIZES = ("512x512", "960x720", "1280x960", "1920x1080", "2560x1440", "3840x2160")
@@ -29,10 +30,8 @@ def bench(catoptric, folder, scene, repeat, *options):
 def write_balls(catoptric, folder):
     """32 balls in place of the four of reflector-sweep, all like its finest one."""
     subprocess.run([catoptric, "scenes", "reflector-sweep", "-o", folder, "-q"], check=True)
-    with open(os.path.join(folder, "reflector-sweep.glb"), "rb") as file:
-        data = file.read()
-    size = struct.unpack_from("<I", data, 12)[0]
-    scene, binary = json.loads(data[20:20 + size]), data[20 + size:]
+    glb = Glb(os.path.join(folder, "reflector-sweep.glb"))
+    scene = glb.json
     nodes, roots = scene["nodes"], scene["scenes"][0]["nodes"]
     mesh = next(node["mesh"] for node in nodes if node.get("name") == "ball 4")
     gone = {i for i, node in enumerate(nodes) if node.get("name", "").startswith(("ball", "partition"))}
@@ -41,11 +40,8 @@ def write_balls(catoptric, folder):
         scene["scenes"][0]["nodes"].append(len(nodes))
         nodes.append({"name": f"mirror {i + 1}", "mesh": mesh, "scale": [0.4] * 3,
                       "translation": [(i % 8 - 3.5) * 0.44, 0.2 + 0.4 * (i // 8), -0.35]})
-    text = json.dumps(scene).encode()
-    text += b" " * (-len(text) % 4)
     path = os.path.join(folder, "balls.glb")
-    with open(path, "wb") as file:
-        file.write(struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(binary), len(text), 0x4E4F534A) + text + binary)
+    glb.write(path)
     return path
 
 

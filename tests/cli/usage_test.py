@@ -7,7 +7,7 @@ import unittest
 
 import support
 
-COMMANDS = ("info", "render", "compare", "bench", "bake", "scenes", "view")
+COMMANDS = ("info", "render", "compare", "bench", "draw", "bake", "scenes", "view")
 
 
 class Help(support.CommandTest):
@@ -57,6 +57,10 @@ class WrongUsage(support.CommandTest):
         for command in (("render", "scene.gltf", "-o", "x.png"), ("view", "scene.gltf")):
             self.refuse(2, ("--solver", "zexel"), *command, "--method", "zexel", "--solver", "exact")
             self.refuse(2, ("--baked", "--method morphing"), *command, "--baked", "x.bake")
+            self.refuse(2, ("--merge", "raytrace"), *command, "--method", "raytrace", "--merge", "stencil")
+            self.refuse(2, ("--texture-scale", "--merge texture"), *command, "--texture-scale", "0.5")
+        self.refuse(2, ("nothing to merge", "+stencil"), "bench", "cylinder", "--methods", "raytrace+stencil")
+        self.refuse(2, ("--texture-scale", "--merge texture"), "bench", "cylinder", "--texture-scale", "0.5")
 
     def test_values_that_are_no_good(self):
         for option, value in (("--size", "abc"), ("--size", "0x10"), ("--size", "-3x4"), ("--size", "10"),

@@ -42,7 +42,13 @@ TracedTestScene makeScene(bool withBall) {
   return t;
 }
 
-renderer::Frame render(const TracedTestScene& t, Merge merge, renderer::Solver solver, double scale = 1) {
+/// One for all ways, whose programs take longer to compile than the pictures to draw.
+renderer::RasterFrame makeRasterFrame(const TracedTestScene& t) {
+  return renderer::RasterFrame(GlTest::context(), t.scene, t.world, t.environment);
+}
+
+renderer::Frame render(const TracedTestScene& t, renderer::RasterFrame& frame, Merge merge,
+                       renderer::Solver solver, double scale = 1) {
   renderer::FrameOptions options;
   options.method = renderer::Method::Virtual;
   options.solver = solver;
@@ -50,7 +56,6 @@ renderer::Frame render(const TracedTestScene& t, Merge merge, renderer::Solver s
   options.bounces = 3;
   options.merge = merge;
   options.textureScale = scale;
-  renderer::RasterFrame frame(GlTest::context(), t.scene, t.world, t.environment);
   return frame.render(t.frame(kSizePx, kSizePx), options);
 }
 
@@ -70,19 +75,21 @@ std::size_t countDifferent(const renderer::Frame& a, const renderer::Frame& b) {
 
 TEST_F(MergeTest, flatMirrorsShowTheSameHoweverTheyAreMerged) {
   const TracedTestScene t = makeScene(false);
-  const renderer::Frame ids = render(t, Merge::Ids, renderer::Solver::Auto);
+  renderer::RasterFrame raster = makeRasterFrame(t);
+  const renderer::Frame ids = render(t, raster, Merge::Ids, renderer::Solver::Auto);
   // Where an edge passes through a pixel's centre, rounding decides.
   for (const Merge merge : kOthers)
-    EXPECT_LE(countDifferent(ids, render(t, merge, renderer::Solver::Auto)), ids.seen.size() / 1000)
+    EXPECT_LE(countDifferent(ids, render(t, raster, merge, renderer::Solver::Auto)), ids.seen.size() / 1000)
         << renderer::mergeName(merge);
 }
 
 TEST_F(MergeTest, soDoCurvedOnes) {
   const TracedTestScene t = makeScene(true);
+  renderer::RasterFrame raster = makeRasterFrame(t);
   for (const renderer::Solver solver : {renderer::Solver::Layered, renderer::Solver::Refined}) {
-    const renderer::Frame ids = render(t, Merge::Ids, solver);
+    const renderer::Frame ids = render(t, raster, Merge::Ids, solver);
     for (const Merge merge : kOthers)
-      EXPECT_LE(countDifferent(ids, render(t, merge, solver)), ids.seen.size() / 1000)
+      EXPECT_LE(countDifferent(ids, render(t, raster, merge, solver)), ids.seen.size() / 1000)
           << renderer::mergeName(merge) << ", " << renderer::solverName(solver);
   }
 }
@@ -98,8 +105,9 @@ core::Box findNeighbours(const core::SeenImage& seen, int x, int y) {
 
 TEST_F(MergeTest, aCoarserTextureBlursButDoesNotMove) {
   const TracedTestScene t = makeScene(false);
-  const renderer::Frame fine = render(t, Merge::Texture, renderer::Solver::Auto);
-  const renderer::Frame coarse = render(t, Merge::Texture, renderer::Solver::Auto, 0.5);
+  renderer::RasterFrame raster = makeRasterFrame(t);
+  const renderer::Frame fine = render(t, raster, Merge::Texture, renderer::Solver::Auto);
+  const renderer::Frame coarse = render(t, raster, Merge::Texture, renderer::Solver::Auto, 0.5);
   EXPECT_GT(countDifferent(fine, coarse), fine.seen.size() / 20);
   std::size_t inMirror = 0, near = 0;
   for (int y = 0; y < kSizePx; ++y)

@@ -13,6 +13,8 @@
 //   4. The others start from the place that it gives, and mostly are there at once.
 //   5. Where a search ends outside of the trace, the octree of the location itself is asked.
 //   6. Where that fails too, the search starts from the place at another location that sees the vertex.
+//   7. Just behind a closed mirror the locations see a vertex all around the rim. What lies between these
+//      points is no reflection of it: the vertex is dropped, or its triangles would sweep across the mirror.
 //
 // Departures from 2004: eight octree look-ups a vertex are two and seven short searches. It takes a quarter
 // of the time, and where several rays of a trace pass through a vertex (behind a focus) the locations agree
@@ -26,6 +28,8 @@ namespace catoptric::reflection_morphing {
 namespace {
 
 constexpr std::size_t kSampleStride = 8;  // of the vertices of a batch
+/// Length of the mean of eight unit normals; normals about 45 degrees from their mean.
+constexpr float kLeastAgreement = 0.7f;
 
 /// The ray of the leaf that is nearest to the middle of the map.
 const OctreeRay& findInnermostRay(const RayTable& table, const RayOctree& octree,
@@ -121,8 +125,9 @@ void CornerLookUp::run(bool all) {
   for (std::size_t k = 0; k < 8; ++k)
     if (trace_[k] != nullptr) searchFromOthers(k);
   for (std::size_t i = 0; i < count_; ++i)
-    corners_.kinds[vertices_[i]] =
-        isInside_[i] != 0 ? raster::VertexKind::Reflected : raster::VertexKind::DoublyVirtual;
+    corners_.kinds[vertices_[i]] = !agree(i)           ? raster::VertexKind::None
+                                   : isInside_[i] != 0 ? raster::VertexKind::Reflected
+                                                       : raster::VertexKind::DoublyVirtual;
   count_ = 0;
 }
 
@@ -148,15 +153,13 @@ void CornerLookUp::keepSeen() {
 }
 
 void CornerLookUp::keep(std::size_t location) {
-  const RayTable& table = trace_[location]->table;
-  for (std::size_t i = 0; i < count_; ++i) {
-    chartX_[location][i] = table.lower.x + batch_.x[i] * table.step.x;
-    chartY_[location][i] = table.lower.y + batch_.y[i] * table.step.y;
-    keepOne(location, i);
-  }
+  for (std::size_t i = 0; i < count_; ++i) keepOne(location, i);
 }
 
 void CornerLookUp::keepOne(std::size_t location, std::size_t i) {
+  const RayTable& table = trace_[location]->table;
+  chartX_[location][i] = table.lower.x + batch_.x[i] * table.step.x;
+  chartY_[location][i] = table.lower.y + batch_.y[i] * table.step.y;
   corners_.points[vertices_[i]][location] =
       vec4(batch_.mirror[0][i], batch_.mirror[1][i], batch_.mirror[2][i], batch_.rest[i]);
   isInside_[i] = std::uint8_t(isInside_[i] | unsigned(batch_.isInside[i]) << location);
@@ -250,6 +253,26 @@ void CornerLookUp::lookUpAt(std::size_t location) {
     if (batch_.isInside[i] == 0 && !asked[i]) searches_.add(i);
   searches_.run(trace, batch_);
   keep(location);
+}
+
+/// Step 7: a mirror's normal bisects the angle between the ray that comes and the one that leaves.
+bool CornerLookUp::agree(std::size_t i) const {
+  vec3 sum(0);
+  float count = 0;
+  for (std::size_t k = 0; k < 8; ++k) {
+    if (trace_[k] == nullptr) continue;
+    const RayTable& table = trace_[k]->table;
+    if (!table.origins.empty()) return true;
+    const vec2 chart(chartX_[k][i], chartY_[k][i]);
+    const ivec2 texel =
+        glm::clamp(ivec2((chart - table.lower) / table.step + 0.5f), ivec2(0), ivec2(table.size - 1));
+    const vec4& leaving = table.leaving[table.at(texel.x, texel.y)];
+    const vec3 direction =
+        leaving.x * table.chart.right + leaving.y * table.chart.up + leaving.z * table.chart.axis;
+    sum += glm::normalize(direction - table.chart.directionAt(chart));
+    ++count;
+  }
+  return glm::dot(sum, sum) >= kLeastAgreement * kLeastAgreement * count * count;
 }
 
 /// Step 6.

@@ -57,6 +57,8 @@ class CornerLookUp {
   void searchFromOthers(std::size_t location);
   void keep(std::size_t location);
   void keepOne(std::size_t location, std::size_t i);
+  /// Is there a sense in interpolating what the locations see?
+  [[nodiscard]] bool agree(std::size_t i) const;
 
   [[nodiscard]] bool isInside(std::size_t location, std::size_t i) const {
     return (isInside_[i] >> location & 1u) != 0;

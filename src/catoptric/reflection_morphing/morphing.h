@@ -24,7 +24,8 @@ struct CornerPoints {
 
 /// Eight look-ups a vertex. Reflected: seen from at least one location. DoublyVirtual: not, but a triangle
 /// (three `indices` each) has a corner there and another one that is reflected. None: all others, and all if
-/// no location has the trace; their points mean nothing.
+/// no location has the trace, or where the
+/// locations see it at places that face different ways; their points mean nothing.
 void lookUpCorners(const CellTrace& trace, std::span<const vec3> scenePoints,
                    std::span<const std::uint32_t> indices, CornerPoints& corners);
 

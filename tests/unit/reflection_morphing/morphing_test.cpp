@@ -261,6 +261,26 @@ TEST(Morphing, onlyCornersOfReflectedTrianglesArePlaced) {
   EXPECT_EQ(corners.kinds, (std::vector{None, None, None, None}));
 }
 
+TEST(Morphing, whatLocationsSeeAllAroundTheRimIsDropped) {
+  const scene::WorldGeometry world = makeSphereWorld();
+  const MirrorRays rays(world);
+  const Cells cells(rays, {2, 2, 2}, 1.4,
+                    makeOptions(world, 128));  // coarse: each location has its own shadow
+  CellTrace trace{};
+  dvec3 middle(0);
+  for (std::size_t k = 0; k < 8; ++k) {
+    trace[k] = cells.locations[k]->findTrace({0});
+    middle += 0.125 * cells.locations[k]->position;
+  }
+  const vec3 behind(-3.5 * glm::normalize(middle)), beside(-behind.z, 0, behind.x);
+  // A triangle with a corner that is reflected: the others are placed where they can be.
+  CornerPoints corners;
+  const std::vector<std::uint32_t> indices{0, 1, 1};
+  lookUpCorners(trace, std::vector{behind, beside}, indices, corners);
+  EXPECT_EQ(corners.kinds[0], raster::VertexKind::None);
+  EXPECT_EQ(corners.kinds[1], raster::VertexKind::Reflected);
+}
+
 TEST(Morphing, doesNotDependOnTheNumberOfThreads) {
   const scene::WorldGeometry world = makeSphereWorld();
   const MirrorRays rays(world);
