@@ -110,7 +110,7 @@ std::vector<MethodVariant> parseMethodList(const std::string& text) {
       if (variant.name == word) throw UsageError("--methods: '" + word + "' is named twice");
     chosen.push_back(methodVariants()[std::size_t(at - names.begin())]);
     if (plus == word.size()) continue;
-    if (!canMerge(chosen.back().method))
+    if (!renderer::hasMerges(chosen.back().method))
       throw UsageError("--methods: '" + word.substr(0, plus) + "' has nothing to merge",
                        "leave '" + word.substr(plus) + "' out");
     chosen.back().name = word;

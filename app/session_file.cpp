@@ -79,7 +79,13 @@ void readOptions(const SessionValue& value, viewer::Session& session) {
     else if (name == "samples")
       frame.samples = member.integer(1, 1024);
     else if (name == "max_error_px")
-      frame.maxErrorPx = member.number(0.01, 100);
+      frame.maxErrorPx = member.number(0.01, 1e6);
+    else if (name == "mapped_below")
+      frame.mappedBelowPixels = member.integer(0, 1 << 30);
+    else if (name == "merge")
+      frame.merge = member.choice(renderer::Merge::Texture, renderer::mergeName);
+    else if (name == "texture_scale")
+      frame.textureScale = member.number(0.01, 1);
     else if (name == "exposure")
       session.exposure = float(member.number(1e-6, 1e6));
     else if (name == "resolution")
@@ -181,6 +187,9 @@ Json makeOptionsJson(const viewer::Session& session) {
                {"bounces", frame.bounces},
                {"samples", frame.samples},
                {"max_error_px", frame.maxErrorPx},
+               {"mapped_below", frame.mappedBelowPixels},
+               {"merge", renderer::mergeName(frame.merge)},
+               {"texture_scale", frame.textureScale},
                {"exposure", session.exposure},
                {"resolution", session.resolution},
                {"comparison", std::string(comparisonName(session.comparison))},

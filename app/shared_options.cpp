@@ -180,18 +180,13 @@ void declareMethod(Arguments& arguments, renderer::FrameOptions& options, bool& 
   arguments.flag("--plain-environment-map", "No parallax correction by the box of the room", plainMap);
 }
 
-bool canMerge(renderer::Method method) {
-  return method != renderer::Method::None && method != renderer::Method::Environment &&
-         method != renderer::Method::RayTrace;
-}
-
 void checkMerge(const renderer::FrameOptions& options, bool usesTexture) {
   if (options.textureScale != 1 && !usesTexture)
     throw UsageError("--texture-scale: there is no texture", "add --merge texture");
 }
 
 void checkMethod(const renderer::FrameOptions& options) {
-  if (options.merge != renderer::Merge::Ids && !canMerge(options.method))
+  if (options.merge != renderer::Merge::Ids && !renderer::hasMerges(options.method))
     throw UsageError(
         fmt::format("--merge: the method '{}' has no use for it", renderer::methodName(options.method)),
         "leave it out, or add --method virtual");

@@ -47,8 +47,6 @@ void declareCamera(Arguments& arguments, CameraOptions& options);
 [[nodiscard]] renderer::Merge parseMerge(const std::string& option, const std::string& text);
 /// --merge, --texture-scale.
 void declareMerge(Arguments& arguments, renderer::FrameOptions& frame);
-/// Does it draw pictures of mirrors that have to be kept within them?
-[[nodiscard]] bool canMerge(renderer::Method method);
 /// Throws UsageError for a --texture-scale that would change nothing.
 void checkMerge(const renderer::FrameOptions& options, bool usesTexture);
 /// What is drawn however it is drawn: --size, --bounces, --samples, ...

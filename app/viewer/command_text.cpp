@@ -42,13 +42,17 @@ std::string makeCommandText(const LoadRequest& scene, const scene::Camera& camer
     add("--solver", std::string(renderer::solverName(options.solver)));
   if (options.method == renderer::Method::Morphing && !options.bakedFile.empty())
     add("--baked", options.bakedFile);
+  if (options.method == renderer::Method::Morphing && options.mappedBelowPixels != standard.mappedBelowPixels)
+    add("--mapped-below", fmt::format("{}", options.mappedBelowPixels));
   if (!options.boxCorrected) add("--plain-environment-map", "");
   add("--size", fmt::format("{}x{}", options.widthPx, options.heightPx));
   add("--bounces", fmt::format("{}", options.bounces));
   if (options.samples != standard.samples) add("--samples", fmt::format("{}", options.samples));
   if (options.maxErrorPx != standard.maxErrorPx) add("--max-error", fmt::format("{}", options.maxErrorPx));
-  if (options.merge != standard.merge) add("--merge", std::string(renderer::mergeName(options.merge)));
-  if (options.textureScale != standard.textureScale)
+  const bool merges = renderer::hasMerges(options.method);
+  if (merges && options.merge != standard.merge)
+    add("--merge", std::string(renderer::mergeName(options.merge)));
+  if (merges && options.merge == renderer::Merge::Texture && options.textureScale != standard.textureScale)
     add("--texture-scale", fmt::format("{}", options.textureScale));
   if (!scene.environment.empty()) add("--environment", scene.environment);
   if (exposure != 1.0f) add("--exposure", fmt::format("{}", exposure));

@@ -22,6 +22,19 @@ void showText(const std::string& text) {
   ImGui::TextUnformatted(text.c_str());
 }
 
+bool drawMerge(renderer::FrameOptions& frame) {
+  bool changed = false;
+  if (!ImGui::BeginCombo("merge", std::string(renderer::mergeName(frame.merge)).c_str())) return false;
+  for (int i = 0; i <= int(renderer::Merge::Texture); ++i) {
+    const auto merge = renderer::Merge(i);
+    if (!ImGui::Selectable(std::string(renderer::mergeName(merge)).c_str(), merge == frame.merge)) continue;
+    frame.merge = merge;
+    changed = true;
+  }
+  ImGui::EndCombo();
+  return changed;
+}
+
 void drawMethod(Model& model) {
   ViewState& view = model.view;
   bool changed = false;
@@ -39,9 +52,10 @@ void drawMethod(Model& model) {
   changed |= ImGui::SliderInt("bounces", &view.frame.bounces, 0, 16);
   float maxErrorPx = float(view.frame.maxErrorPx);
   if (ImGui::SliderFloat("max error, px", &maxErrorPx, 0.1f, 10, "%.2f", ImGuiSliderFlags_Logarithmic)) {
-    view.frame.maxErrorPx = std::clamp(double(maxErrorPx), 0.01, 100.0);
+    view.frame.maxErrorPx = std::clamp(double(maxErrorPx), 0.01, 1e6);
     changed = true;
   }
+  if (renderer::hasMerges(model.variants[view.variant].method)) changed |= drawMerge(view.frame);
   changed |= ImGui::SliderFloat("exposure", &view.exposure, 0.1f, 10, "%.2f", ImGuiSliderFlags_Logarithmic);
   changed |= ImGui::SliderFloat("resolution", &view.resolution, 0.25f, 1, "%.2f");
   view.frame.bounces = std::clamp(view.frame.bounces, 0, 16);

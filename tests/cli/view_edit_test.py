@@ -47,7 +47,8 @@ class Editing(WindowTest):
         viewer.do("keyup", "ctrl")
 
     def test_a_dragged_object_is_undone_and_saved(self):
-        viewer = self.view("scene.gltf", "--size", "320x240", "--camera", "front")
+        viewer = self.view("scene.gltf", "--size", "320x240", "--camera", "front", "--max-error", "1000",
+                           "--merge", "texture", "--texture-scale", "0.5")
         viewer.wait_for_window()
         viewer.wait_for_line(SETTLED)
         viewer.do("key", "p")
@@ -69,6 +70,8 @@ class Editing(WindowTest):
         # The session shows the same, from another folder as well.
         session = json.loads(self.read(SESSION))
         self.assertEqual([edit["name"] for edit in session["moved"]], ["Board"])
+        options = session["options"]
+        self.assertEqual((options["max_error_px"], options["merge"], options["texture_scale"]), (1000, "texture", 0.5))
         os.mkdir(self.path("other"))
         viewer = window_support.Viewer(self.path("other"), self.display, "--session", "../" + SESSION)
         self.addCleanup(viewer.kill)

@@ -61,9 +61,12 @@ void PlanarMirrorMethod::drawBlended(raster::FrameContext& frame, const raster::
 }
 
 bool PlanarMirrorMethod::addEdgePlanes(const raster::FrameContext& frame, const raster::Chain& chain,
-                                       raster::PinholeView& mirrored) const {
+                                       raster::PinholeView& mirrored) {
   const std::size_t most = raster::ClipPlanes::kMost - std::size_t(mirrored.clip.count);
-  const std::vector<dvec3> outline = findConvexOutline(frame.scene.geometry(), chain.last, most);
+  auto kept = outlines_.find(chain.last);
+  if (kept == outlines_.end())
+    kept = outlines_.emplace(chain.last, findConvexOutline(frame.scene.geometry(), chain.last, most)).first;
+  const std::vector<dvec3>& outline = kept->second;
   if (outline.empty()) return false;
   const std::vector<vec4> planes = makeEdgePlanes(outline, mirrored);
   if (coverOtherMirror(planes, mirrored, chain, frame.parentIds, frame.camera.widthPx)) return false;

@@ -4,6 +4,9 @@
 // mirror, only where the level before shows that mirror.
 #pragma once
 
+#include <map>
+#include <vector>
+
 #include "catoptric/planar_mirror/projective_texture.h"
 #include "catoptric/raster/reflection_method.h"
 
@@ -14,7 +17,10 @@ class PlanarMirrorMethod : public raster::ReflectionMethod {
   [[nodiscard]] std::string_view name() const override { return "planar"; }
   [[nodiscard]] bool supports(const raster::Chain& chain) const override { return !chain.curved; }
   void prepare(raster::FrameContext&) override {}
-  void geometryChanged() override { blendedStreams_.reset(); }
+  void geometryChanged() override {
+    blendedStreams_.reset();
+    outlines_.clear();
+  }
   void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
               raster::Level& target) override;
 
@@ -23,10 +29,11 @@ class PlanarMirrorMethod : public raster::ReflectionMethod {
   /// Adds the planes through the eye and the mirror's edges, if they keep everything within its pixels and
   /// out of the other mirrors'.
   [[nodiscard]] bool addEdgePlanes(const raster::FrameContext& frame, const raster::Chain& chain,
-                                   raster::PinholeView& mirrored) const;
+                                   raster::PinholeView& mirrored);
 
   raster::MirrorBackgroundPass background_;
-  std::unique_ptr<ProjectiveTexture> texture_;  ///< made when first needed
+  std::map<std::uint32_t, std::vector<dvec3>> outlines_;  ///< by mirror, made when first needed
+  std::unique_ptr<ProjectiveTexture> texture_;            ///< made when first needed
   std::unique_ptr<raster::VertexStreams> blendedStreams_;
   std::vector<std::uint32_t> sortedIndices_;
   std::vector<raster::DrawRange> ranges_, sortedRanges_;

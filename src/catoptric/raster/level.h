@@ -15,7 +15,7 @@
 namespace catoptric::raster {
 
 struct Level {
-  explicit Level(int widthPx, int heightPx, bool withStencil = false);
+  Level(int widthPx, int heightPx, bool withStencil = false);
 
   /// Nothing is stored, and nothing will be outside of `drawn`.
   void clear(const gl::Scissor& drawn);

@@ -35,6 +35,8 @@ using raster::Merge;
 [[nodiscard]] std::string_view methodName(Method method);
 [[nodiscard]] std::string_view solverName(Solver solver);
 [[nodiscard]] std::string_view mergeName(Merge merge);
+/// Whether FrameOptions::merge has a say in this method.
+[[nodiscard]] bool hasMerges(Method method);
 /// Whether FrameOptions::solver has a say in this method.
 [[nodiscard]] bool hasSolvers(Method method);
 

@@ -48,6 +48,10 @@ std::string_view solverName(Solver solver) {
   return "?";
 }
 
+bool hasMerges(Method method) {
+  return method != Method::None && method != Method::Environment && method != Method::RayTrace;
+}
+
 std::string_view mergeName(Merge merge) {
   switch (merge) {
     case Merge::Ids:
