@@ -6,11 +6,14 @@
 //   ids         r: (object + 1) | inside << 30 | shell << 31     g: (reflector + 1) | chain << 16
 // A refractor's pixels are mirror pixels whose "mirror direction" is the refracted one; `inside` says that the ray in that
 // direction goes through its solid.
+// Composing adds what its mirrors show to a level's radiance. The last level has none of this: its mirrors show the
+// environment and are stored like other surfaces.
 // For the sky `position` holds the unit direction and kSkyPath, ids.r is 0. Where no mirror is, weight and both halves of
 // the mirror direction say nothing, nor does position unless the level says what is seen.
 
 const float kSkyPath = 1.0e30f;
 const uint kInsideBit = 0x40000000u;
+const uint kUnfollowedBit = 0x20000000u;  // ids.r alone: the environment, in a mirror that no method draws
 
 vec2 octahedralFromDirection(vec3 d) {
   vec2 p = d.xy / (abs(d.x) + abs(d.y) + abs(d.z));

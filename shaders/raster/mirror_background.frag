@@ -11,6 +11,7 @@ uniform sampler2D u_parentWeight;
 uniform usampler2D u_parentIds;
 uniform uint u_parentWord;  // ids.g of the mirror's pixels
 uniform uint u_chain;
+uniform uint u_objectWord;  // ids.r: 0, or kUnfollowedBit
 
 layout(location = 0) out vec4 o_radiance;
 layout(location = 1) out uvec2 o_ids;
@@ -25,7 +26,7 @@ void main() {
   vec3 dx = readMirrorDirectionStep(u_parentRadiance, u_parentWeight, u_parentIds, pixel, ivec2(1, 0), d);
   vec3 dy = readMirrorDirectionStep(u_parentRadiance, u_parentWeight, u_parentIds, pixel, ivec2(0, 1), d);
   o_radiance = vec4(lookUpEnvironment(d, dx, dy), 0.0f);
-  o_ids = uvec2(0u, u_chain << 16u);
+  o_ids = uvec2(u_objectWord, u_chain << 16u);
 #ifdef SEEN
   o_position = vec4(d, kSkyPath);
 #endif

@@ -5,9 +5,10 @@
 //   PARENT   level > 0: view rays start where the level before says
 //   MASK     and only its pixels that show the mirror are drawn
 //   CLIP     half spaces are cut off, by the vertex shader where the language has clip distances
-//   MIRROR   a reflector: stores what the next level needs. Others store
+//   MIRROR   a reflector: stores what the next level needs. Others, and those of the last level, store
 //   SEEN     what is seen at this pixel, too
 //   OVERLAY  blended surfaces: only premultiplied colour
+//   ENVIRONMENT  a reflector of the last level: shows the environment
 
 #include "lib/environment.glsl"
 #include "lib/refraction.glsl"
@@ -84,6 +85,11 @@ void main() {
   p.color = v_color;
   p.isFront = gl_FrontFacing != (u_windingFlipped != 0);
 
+#ifdef ENVIRONMENT
+  vec3 view = normalize(v_drawPosition - u_drawEye);  // flat mirrors turn it, but not how far it changes
+  p.mirrorChange = vec2(boundMirrorChange(dFdx(view), v_normal, dFdx(v_normal)),
+                        boundMirrorChange(dFdy(view), v_normal, dFdy(v_normal)));
+#endif
   float path = length(v_drawPosition - u_drawEye);
   vec3 from;
   if (!isSeenThroughChain(ivec2(gl_FragCoord.xy), path, from)) discard;

@@ -24,6 +24,9 @@ struct SurfacePoint {
   vec4 color;
   vec3 toViewer;          // unit
   bool isFront;
+#ifdef ENVIRONMENT
+  vec2 mirrorChange;      // how far the mirror direction turns, see boundMirrorChange()
+#endif
 };
 
 /// What leaves it.
@@ -33,6 +36,13 @@ struct ShadedPoint {
   vec3 mirrorDirection;   // or, behind a refractor's surface, the refracted direction
   bool isTotal;           // totally reflected at a refractor's surface
 };
+
+/// Most that a mirror direction turns per pixel, radians: v - 2 (v n) n turns by what v turns and twice what n does, at most.
+/// `normal` and its change need not be of unit length.
+float boundMirrorChange(vec3 viewChange, vec3 normal, vec3 normalChange) {
+  vec3 n = normalize(normal);
+  return length(viewChange) + 2.0f * length(normalChange - n * dot(n, normalChange)) / max(length(normal), 1.0e-12f);
+}
 
 vec4 readSlot(sampler2D map, int slot, SurfacePoint p) {
   return sampleSlot(map, slot, slotUv(slot, p.uv0, p.uv1), slotUvChange(slot, p.uv0Dx, p.uv1Dx),
@@ -129,5 +139,9 @@ ShadedPoint shadePoint(SurfacePoint p, vec3 normal, vec3 baseColor) {
     shaded.isTotal = dot(refracted, refracted) == 0.0f;
     if (!shaded.isTotal) shaded.mirrorDirection = refracted;
   }
+#ifdef ENVIRONMENT
+  shaded.radiance += shaded.weight * lookUpEnvironment(shaded.mirrorDirection, vec3(p.mirrorChange.x, 0.0f, 0.0f),
+                                                       vec3(0.0f, p.mirrorChange.y, 0.0f));
+#endif
   return shaded;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The point of a triangle that a pixel's reflected ray meets, ready for shading. Needs level_pixels, material,
 // surface_shading and exact_ray. Vertex texels: position + uv0.x; normal + uv0.y; tangent; colour; uv1.
-// Defines, by part: COLORS = its vertices have colours; SECOND_UV = and a second set of texture coordinates.
+// Defines, by part: ENVIRONMENT = as in raster/surface.frag; COLORS = its vertices have colours; SECOND_UV = and a second set of texture coordinates.
 
 /// A ray with its changes per pixel.
 struct PixelRay {
@@ -32,6 +32,11 @@ SurfacePoint makeSurfacePoint(PixelRay ray, uvec4 corners, RayHit hit, vec3 e1, 
   mat3x4 place = mat3x4(readVertex(corners.x, 0), readVertex(corners.y, 0), readVertex(corners.z, 0));
   mat3x4 facing = mat3x4(readVertex(corners.x, 1), readVertex(corners.y, 1), readVertex(corners.z, 1));
   p.normal = (facing * hit.weights).xyz;
+#ifdef ENVIRONMENT
+  mat2x3 toNormals = mat2x3((facing[1] - facing[0]).xyz, (facing[2] - facing[0]).xyz);
+  p.mirrorChange = vec2(boundMirrorChange(ray.directionDx, p.normal, toNormals * weightsDx),
+                        boundMirrorChange(ray.directionDy, p.normal, toNormals * weightsDy));
+#endif
   vec2 a = vec2(place[0].w, facing[0].w);
   vec2 toB = vec2(place[1].w, facing[1].w) - a, toC = vec2(place[2].w, facing[2].w) - a;
   p.uv0 = a + toB * hit.weights.y + toC * hit.weights.z;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Step 4 of solver `exact`: shades what the reflected ray of this pixel meets and stores it as surface.frag does.
-// Defines: OVERLAY = blended triangles, each tested here; only premultiplied colour is written.
+// Defines: ENVIRONMENT = as in surface.frag; OVERLAY = blended triangles, each tested here; only premultiplied colour is written.
 
 #include "lib/environment.glsl"
 #include "lib/refraction.glsl"

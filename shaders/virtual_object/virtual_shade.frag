@@ -3,7 +3,7 @@
 // real triangle, and what it meets is stored as surface.frag does. Rays come straight from the level before; their changes
 // per pixel are those within the 2x2 pixels that are shaded together.
 // Defines, besides those of raster/material.glsl and exact_point.glsl:
-//   MIRROR, SEEN  as in raster/surface.frag
+//   MIRROR, SEEN, ENVIRONMENT  as in raster/surface.frag
 //   EDGE          pixels of other mirrors, or of none, lie in between: differences to neighbours that are of this one
 
 #include "lib/environment.glsl"

@@ -203,7 +203,7 @@ TEST_F(Wrappers, blendingIsOfPremultipliedColours) {
   array.setIndices(indices);
   target.framebuffer.bind();
   target.framebuffer.clearColor(0, vec4(1, 0, 2, 1));
-  setDrawState({.depthTest = false, .depthWrite = false, .blendPremultiplied = true});
+  setDrawState({.depthTest = false, .depthWrite = false, .blend = Blend::Premultiplied});
   program.use();
   array.bind();
   drawTriangles(0, 6);

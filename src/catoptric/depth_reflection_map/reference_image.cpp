@@ -126,7 +126,7 @@ void ReferenceCache::capture(raster::FrameContext& frame, std::uint32_t reflecto
   if (!level_ || level_->widthPx != camera.width || level_->heightPx != camera.height)
     level_ = std::make_unique<raster::Level>(camera.width, camera.height);
   frame.primary.draw(frame.scene, camera.makeView(), *level_, reflector);
-  frame.compose.draw(frame.scene, *level_, nullptr);
+  frame.compose.draw(*level_, nullptr);
 
   const std::array<const gl::Texture*, 2> targets{&image.color, &image.zexels};
   const gl::Framebuffer framebuffer(targets, nullptr);
@@ -135,7 +135,7 @@ void ReferenceCache::capture(raster::FrameContext& frame, std::uint32_t reflecto
   program_.use();
   int unit = raster::kUnitFirstFree;
   const std::array<std::pair<const char*, const gl::Texture*>, 3> sources{
-      {{"u_color", &level_->color}, {"u_position", &level_->seenPosition}, {"u_ids", &level_->seenIds}}};
+      {{"u_color", &level_->radiance}, {"u_position", &level_->seenPosition}, {"u_ids", &level_->seenIds}}};
   for (const auto& [name, texture] : sources) {
     texture->bind(unit);
     program_.set(name, unit++);

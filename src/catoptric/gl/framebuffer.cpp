@@ -86,6 +86,13 @@ void Framebuffer::readPixels(int attachment, const Scissor& pixels, std::span<uv
   glReadPixels(pixels.x, pixels.y, pixels.width, pixels.height, GL_RG_INTEGER, GL_UNSIGNED_INT, out.data());
 }
 
+void Framebuffer::readPixelsInPlace(int attachment, const Scissor& pixels, std::span<uvec2> out) const {
+  glPixelStorei(GL_PACK_ROW_LENGTH, width_);
+  const std::size_t first = std::size_t(pixels.y) * std::size_t(width_) + std::size_t(pixels.x);
+  readPixels(attachment, pixels, out.subspan(first));
+  glPixelStorei(GL_PACK_ROW_LENGTH, 0);
+}
+
 void Framebuffer::copyToCubeFace(int attachment, const Texture& cube, int face) const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
   glReadBuffer(GL_COLOR_ATTACHMENT0 + unsigned(attachment));
@@ -128,11 +135,11 @@ void setDrawState(const DrawState& state) {
     glEnable(GL_CULL_FACE);
     glCullFace(state.cull == Cull::Back ? GL_BACK : GL_FRONT);
   }
-  if (state.blendPremultiplied) {
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  } else {
+  if (state.blend == Blend::None) {
     glDisable(GL_BLEND);
+  } else {
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, state.blend == Blend::Add ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
   }
 }
 

@@ -37,6 +37,8 @@ class Framebuffer {
 
   /// The same for some pixels, row by row.
   void readPixels(int attachment, const Scissor& pixels, std::span<uvec2> out) const;
+  /// The same, each pixel to where it would be if all were read; others are left as they are.
+  void readPixelsInPlace(int attachment, const Scissor& pixels, std::span<uvec2> out) const;
 
   /// Copies a colour attachment into level 0 of a face of a cube texture of the same size and format.
   void copyToCubeFace(int attachment, const Texture& cube, int face) const;
@@ -56,6 +58,12 @@ enum class StencilRule : std::uint8_t {
   Write        ///< the value is stored wherever something is drawn
 };
 
+enum class Blend : std::uint8_t {
+  None,
+  Premultiplied,  ///< source + destination * (1 - source alpha)
+  Add             ///< source + destination
+};
+
 struct DrawState {
   bool depthTest = true;     ///< drawn where nothing nearer is
   bool depthEqual = false;   ///< nor anything as near
@@ -66,7 +74,7 @@ struct DrawState {
   std::uint8_t stencilValue = 0;
   int clipDistances = 0;  ///< of gl_ClipDistance[], the first so many count; none under OpenGL ES
   Cull cull = Cull::None;
-  bool blendPremultiplied = false;  ///< source + destination * (1 - source alpha)
+  Blend blend = Blend::None;
 };
 
 void setDrawState(const DrawState& state);

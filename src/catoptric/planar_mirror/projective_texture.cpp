@@ -19,6 +19,7 @@ void ProjectiveTexture::draw(raster::FrameContext& frame, const raster::Chain& c
   if (!texture_ || texture_->widthPx != width || texture_->heightPx != height)
     texture_ = std::make_unique<raster::Level>(width, height);
   texture_->withSeen = target.withSeen;
+  texture_->isLast = target.isLast;
   const raster::PinholeView view =
       reduceToRectangle(mirrored, chain.bounds, target.widthPx, target.heightPx, width, height);
   frame.primary.draw(frame.scene, view, *texture_, chain.last, &ranges);

@@ -26,25 +26,33 @@ Level::Level(int width, int height, bool withStencil)
       ids(makeTarget(gl::Format::Rg32Ui, width, height)),
       depth(makeTarget(withStencil ? gl::Format::Depth32FStencil8 : gl::Format::Depth32F, width, height)),
       overlay(makeTarget(gl::Format::Rgba32F, width, height)),
-      color(makeTarget(gl::Format::Rgba32F, width, height)),
       seenPosition(makeTarget(gl::Format::Rgba32F, width, height)),
       seenIds(makeTarget(gl::Format::Rg32Ui, width, height)),
       surfaces(makeFramebuffer({&radiance, &position, &weight, &ids}, &depth)),
       plain(makeFramebuffer({&radiance, &ids}, &depth)),
       plainSeen(makeFramebuffer({&radiance, &ids, &position}, &depth)),
       overlays(makeFramebuffer({&overlay}, &depth)),
-      composedColor(makeFramebuffer({&color}, nullptr)),
-      composed(makeFramebuffer({&color, &seenPosition, &seenIds}, nullptr)) {}
+      composed(makeFramebuffer({&radiance}, nullptr)),
+      seen(makeFramebuffer({&seenPosition, &seenIds}, nullptr)) {}
 
 void Level::clear(const gl::Scissor& drawn) {
   drawnBounds = drawn;
-  hasOverlay = isComplete = false;
+  hasOverlay = false;
   surfaces.bind();
-  surfaces.clearColor(3,
-                      uvec4(0u));  // where ids say that there is nothing, the other three are never looked at
+  // Neighbours of what is drawn are looked at, too: are they of the same mirror?
+  gl::setScissor({drawn.x - 1, drawn.y - 1, drawn.width + 2, drawn.height + 2});
+  surfaces.clearColor(
+      3, uvec4(0u));  // where they say that there is nothing, the other three are never looked at
   surfaces.clearDepth();
   stencilValues = 0;
   if (hasStencil) surfaces.clearStencil();
+}
+
+void Level::clearDepths() {
+  drawnBounds = {0, 0, widthPx, heightPx};
+  hasOverlay = false;
+  plain.bind();
+  plain.clearDepth();
 }
 
 void Level::bindOverlay() {
@@ -65,47 +73,70 @@ void Level::bindAsParent(gl::Program& program) const {
   }
 }
 
-ComposePass::ComposePass() = default;
+ComposePass::ComposePass()
+    : mirrored_("raster/screen.vert", "raster/compose.frag"),
+      overlay_("raster/screen.vert", "raster/overlay.frag") {}
 
-gl::Program& ComposePass::findProgram(unsigned features) {
-  std::unique_ptr<gl::Program>& program = programs_[features];
-  if (program) return *program;
-  std::vector<std::string> defines;
-  if ((features & kNext) != 0) defines.emplace_back("NEXT");
-  if ((features & kEnvironment) != 0) defines.emplace_back("ENVIRONMENT");
-  if ((features & kOverlay) != 0) defines.emplace_back("OVERLAY");
-  if ((features & kSeen) != 0) defines.emplace_back("SEEN");
-  program = std::make_unique<gl::Program>("raster/screen.vert", "raster/compose.frag", defines);
-  return *program;
+namespace {
+
+void bindImages(gl::Program& program,
+                std::initializer_list<std::pair<const char*, const gl::Texture*>> images) {
+  int unit = kUnitFirstFree;
+  for (const auto& [name, texture] : images) {
+    texture->bind(unit);
+    program.set(name, unit++);
+  }
 }
 
-void ComposePass::draw(const SceneBuffers& scene, const Level& level, const Level* next) {
-  (level.withSeen ? level.composed : level.composedColor).bind();
+}  // namespace
+
+void ComposePass::addMirrored(const Level& level, const Level& next) {
+  level.composed.bind();
+  gl::setScissor(next.drawnBounds);
+  gl::setDrawState({.depthTest = false, .depthWrite = false, .blend = gl::Blend::Add});
+  mirrored_.use();
+  bindImages(mirrored_, {{"u_ids", &level.ids},
+                         {"u_weight", &level.weight},
+                         {"u_nextIds", &next.ids},
+                         {"u_nextRadiance", &next.radiance}});
+  gl::drawScreen();
+}
+
+void ComposePass::findSeen(const Level& level, const Level* next) {
+  std::unique_ptr<gl::Program>& program = next ? seen_ : seenLast_;
+  if (!program)
+    program =
+        std::make_unique<gl::Program>("raster/screen.vert", "raster/seen.frag",
+                                      next ? std::vector<std::string>{"NEXT"} : std::vector<std::string>{});
+  level.seen.bind();
   gl::setScissor(level.drawnBounds);
   gl::setDrawState({.depthTest = false, .depthWrite = false});
-  const bool showsEnvironment = next == nullptr || !next->isComplete;
-  gl::Program& program = findProgram((next ? kNext : 0u) | (showsEnvironment ? kEnvironment : 0u) |
-                                     (level.hasOverlay ? kOverlay : 0u) | (level.withSeen ? kSeen : 0u));
-  program.use();
-  scene.bindEnvironment(program);
-  const Level& other = next ? *next : level;
-  int unit = kUnitFirstFree;
-  const auto bind = [&](const char* name, const gl::Texture& texture) {
-    texture.bind(unit);
-    program.set(name, unit++);
-  };
-  bind("u_radiance", level.radiance);
-  bind("u_position", level.position);
-  bind("u_weight", level.weight);
-  bind("u_ids", level.ids);
-  bind("u_overlay", level.overlay);
-  bind("u_nextIds", other.ids);
-  // Without a next level these are never read; a target that is being written must not be bound.
-  bind("u_nextColor", next ? next->color : level.radiance);
-  bind("u_nextSeenPosition", next ? next->seenPosition : level.position);
-  bind("u_nextSeenIds", next ? next->seenIds : level.ids);
-  nothing_.bind();
+  program->use();
+  bindImages(*program, {{"u_position", &level.position}, {"u_ids", &level.ids}});
+  if (next) {
+    const gl::Scissor& b = next->drawnBounds;
+    program->set("u_nextBounds", vec4(b.x, b.y, b.x + b.width, b.y + b.height));
+    bindImages(*program, {{"u_position", &level.position},
+                          {"u_ids", &level.ids},
+                          {"u_nextIds", &next->ids},
+                          {"u_nextSeenPosition", &next->seenPosition},
+                          {"u_nextSeenIds", &next->seenIds}});
+  }
   gl::drawScreen();
+}
+
+void ComposePass::draw(const Level& level, const Level* next) {
+  nothing_.bind();
+  if (next) addMirrored(level, *next);
+  if (level.hasOverlay) {
+    level.composed.bind();
+    gl::setScissor(level.drawnBounds);
+    gl::setDrawState({.depthTest = false, .depthWrite = false, .blend = gl::Blend::Premultiplied});
+    overlay_.use();
+    bindImages(overlay_, {{"u_overlay", &level.overlay}});
+    gl::drawScreen();
+  }
+  if (level.withSeen) findSeen(level, next);
 }
 
 }  // namespace catoptric::raster

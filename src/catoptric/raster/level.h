@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pictures of one level of mirrors: level 0 is the primary image, level k shows what is seen after k
 // mirrors, at the pixels of level k-1's mirrors. Layout: shaders/raster/level_pixels.glsl.
+// Composing adds what mirrors show to the radiance in place: pixels without a mirror are not touched again.
 #pragma once
 
 #include <array>
@@ -17,9 +18,11 @@ namespace catoptric::raster {
 struct Level {
   Level(int widthPx, int heightPx, bool withStencil = false);
 
-  /// Nothing is stored, and nothing will be outside of `drawn`.
+  /// Nothing is stored within `drawn` and a pixel around it, and nothing will be outside of it: what is there
+  /// is left from other frames.
   void clear(const gl::Scissor& drawn);
-  void clear() { clear({0, 0, widthPx, heightPx}); }
+  /// Only its depths: every pixel will be drawn.
+  void clearDepths();
   /// What is drawn into where no mirror is.
   [[nodiscard]] const gl::Framebuffer& plainTarget() const { return withSeen ? plainSeen : plain; }
   /// Binds what blended surfaces are drawn into.
@@ -30,31 +33,35 @@ struct Level {
   int widthPx, heightPx;
   bool hasStencil;
   gl::Texture radiance, position, weight, ids, depth;
-  gl::Texture overlay;                       ///< blended surfaces, premultiplied
-  gl::Texture color, seenPosition, seenIds;  ///< composed
-  gl::Framebuffer surfaces;                  ///< of mirrors: radiance, position, weight, ids
-  gl::Framebuffer plain, plainSeen;          ///< of all else: radiance, ids; and position
+  gl::Texture overlay;                ///< blended surfaces, premultiplied
+  gl::Texture seenPosition, seenIds;  ///< composed
+  gl::Framebuffer surfaces;           ///< of mirrors: radiance, position, weight, ids
+  gl::Framebuffer plain, plainSeen;   ///< of all else: radiance, ids; and position
   gl::Framebuffer overlays;
-  gl::Framebuffer composedColor, composed;  ///< color; and what is seen
-  bool withSeen = true;                     ///< also says what is seen at each pixel
-  gl::Scissor drawnBounds;                  ///< pixels that may show something
+  gl::Framebuffer composed;  ///< radiance
+  gl::Framebuffer seen;      ///< seenPosition, seenIds
+  bool withSeen = true;      ///< also says what is seen at each pixel
+  bool isLast = true;  ///< no level comes after it: its mirrors show the environment, and are shaded with it
+  gl::Scissor drawnBounds;  ///< pixels that may show something
   bool hasOverlay = false;
-  int stencilValues = 0;    ///< given to mirrors so far
-  bool isComplete = false;  ///< something was drawn for every mirror pixel of the level before
+  int stencilValues = 0;  ///< given to mirrors so far
 };
 
-/// Blends a level with what its mirrors show (shaders/raster/compose.frag).
+/// Blends a level with what its mirrors show, then blended surfaces over it, into its radiance; and what is
+/// seen into its seenPosition and seenIds, if it says that (shaders/raster/compose.frag, overlay.frag,
+/// seen.frag).
 class ComposePass {
  public:
   ComposePass();
-  /// `next` may be null: mirrors show the environment.
-  void draw(const SceneBuffers& scene, const Level& level, const Level* next);
+  /// `next`: composed; null for the last level.
+  void draw(const Level& level, const Level* next);
 
  private:
-  enum Feature : unsigned { kNext = 1, kEnvironment = 2, kOverlay = 4, kSeen = 8 };
-  [[nodiscard]] gl::Program& findProgram(unsigned features);
+  void addMirrored(const Level& level, const Level& next);
+  void findSeen(const Level& level, const Level* next);
 
-  std::array<std::unique_ptr<gl::Program>, 16> programs_;  ///< by features, made when first used
+  gl::Program mirrored_, overlay_;
+  std::unique_ptr<gl::Program> seen_, seenLast_;  ///< made when first used
   gl::VertexArray nothing_;
 };
 

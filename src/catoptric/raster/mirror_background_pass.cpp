@@ -3,12 +3,14 @@
 
 namespace catoptric::raster {
 
+constexpr std::uint32_t kUnfollowedBit = 0x20000000u;  // shaders/raster/level_pixels.glsl
+
 MirrorBackgroundPass::MirrorBackgroundPass()
     : program_("raster/screen.vert", "raster/mirror_background.frag"),
       programSeen_("raster/screen.vert", "raster/mirror_background.frag", {"SEEN"}) {}
 
 void MirrorBackgroundPass::draw(const SceneBuffers& scene, const Chain& chain, const Level& parent,
-                                const Level& target) {
+                                const Level& target, bool isFollowed) {
   target.plainTarget().bind();
   gl::setScissor(chain.bounds);
   gl::setDrawState({.depthTest = true, .depthEqual = true, .depthWrite = false});
@@ -18,6 +20,7 @@ void MirrorBackgroundPass::draw(const SceneBuffers& scene, const Chain& chain, c
   parent.bindAsParent(program);
   program.set("u_parentWord", chain.parentWord());
   program.set("u_chain", chain.id);
+  program.set("u_objectWord", isFollowed ? 0u : kUnfollowedBit);
   nothing_.bind();
   gl::drawScreen();
 }

@@ -72,7 +72,9 @@ class ReflectionMethod {
 class MirrorBackgroundPass {
  public:
   MirrorBackgroundPass();
-  void draw(const SceneBuffers& scene, const Chain& chain, const Level& parent, const Level& target);
+  /// `isFollowed`: false for a mirror that no method draws. What is seen there is the mirror.
+  void draw(const SceneBuffers& scene, const Chain& chain, const Level& parent, const Level& target,
+            bool isFollowed = true);
 
  private:
   gl::Program program_, programSeen_;

@@ -53,10 +53,10 @@ void SceneCubeCapture::draw(FrameContext& frame, const dvec3& centre, double nea
     camera.tanHalfFovY = 1.0;
     camera.widthPx = camera.heightPx = size;
     frame.primary.draw(frame.scene, camera, nearPlane, {0.5, 0.5}, *face_, excludedReflector);
-    frame.compose.draw(frame.scene, *face_, nullptr);
+    frame.compose.draw(*face_, nullptr);
     face_->composed.copyToCubeFace(0, cube.color, i);
-    face_->composed.copyToCubeFace(1, cube.position, i);
-    face_->composed.copyToCubeFace(2, cube.ids, i);
+    face_->seen.copyToCubeFace(0, cube.position, i);
+    face_->seen.copyToCubeFace(1, cube.ids, i);
   }
   cube.color.generateMipmaps();
 }

@@ -52,9 +52,10 @@ gl::Program& SurfacePass::findProgram(unsigned features) {
   std::unique_ptr<gl::Program>& program = programs_[features];
   if (!program) {
     std::vector<std::string> defines{"TEXTURES " + std::to_string(features & 31u)};
-    const std::pair<Feature, const char*> names[] = {{kOverlay, "OVERLAY"}, {kMirror, "MIRROR"},
-                                                     {kSeen, "SEEN"},       {kParent, "PARENT"},
-                                                     {kIds, "MASK"},        {kClip, "CLIP"}};
+    const std::pair<Feature, const char*> names[] = {
+        {kOverlay, "OVERLAY"},        {kMirror, "MIRROR"}, {kSeen, "SEEN"},
+        {kParent, "PARENT"},          {kIds, "MASK"},      {kClip, "CLIP"},
+        {kEnvironment, "ENVIRONMENT"}};
     for (const auto& [feature, name] : names)
       if ((features & feature) != 0) defines.emplace_back(name);
     program = std::make_unique<gl::Program>("raster/surface.vert", "raster/surface.frag", defines);
@@ -76,8 +77,12 @@ void SurfacePass::draw(const SceneBuffers& scene, const VertexStreams& streams,
     if (view.chain) gl::setScissor(view.chain->bounds);
     drawRanges(scene, streams, some, view, features);
   };
-  drawInto(target.surfaces, mirrors_, kMirror);
-  drawInto(target.plainTarget(), others_, target.withSeen ? kSeen : 0u);
+  const unsigned plain = target.withSeen ? kSeen : 0u;
+  if (target.isLast)
+    drawInto(target.plainTarget(), mirrors_, plain | kEnvironment);
+  else
+    drawInto(target.surfaces, mirrors_, kMirror);
+  drawInto(target.plainTarget(), others_, plain);
 }
 
 void SurfacePass::drawBlended(const SceneBuffers& scene, const VertexStreams& streams,
@@ -116,7 +121,7 @@ void SurfacePass::drawRanges(const SceneBuffers& scene, const VertexStreams& str
                       .stencilValue = view.masking.stencilValue,
                       .clipDistances = clipsInVertexShader ? view.clip.count : 0,
                       .cull = material.isSeenFromBehind() ? gl::Cull::None : hidden,
-                      .blendPremultiplied = blended});
+                      .blend = blended ? gl::Blend::Premultiplied : gl::Blend::None});
     bindPart(program, scene, range.part, view.chain);
     gl::drawTriangles(range.firstIndex, range.indexCount);
   }
@@ -188,7 +193,7 @@ void PrimaryPass::draw(const SceneBuffers& scene, const scene::CameraFrame& came
 
 void PrimaryPass::draw(const SceneBuffers& scene, const PinholeView& pinhole, Level& target,
                        std::uint32_t excludedReflector, const std::vector<DrawRange>* opaque) {
-  target.clear();
+  target.clearDepths();
   SurfaceView view;
   view.clipFromDraw = pinhole.clipFromWorld;
   view.eye = view.drawEye = pinhole.eye;

@@ -62,14 +62,15 @@ class SurfacePass {
     kSeen = 128,
     kParent = 256,
     kIds = 512,
-    kClip = 1024
+    kClip = 1024,
+    kEnvironment = 2048
   };
 
   void drawRanges(const SceneBuffers& scene, const VertexStreams& streams, std::span<const DrawRange> ranges,
                   const SurfaceView& view, unsigned features);
   [[nodiscard]] gl::Program& findProgram(unsigned features);
 
-  std::array<std::unique_ptr<gl::Program>, 2048> programs_;
+  std::array<std::unique_ptr<gl::Program>, 4096> programs_;
   std::vector<DrawRange> mirrors_, others_;
 };
 

@@ -16,13 +16,14 @@ struct Extent {
   std::uint64_t pixels = 0;
 };
 
-/// Of all mirrors, by ids.g.
-std::map<std::uint32_t, Extent> findExtents(std::span<const uvec2> ids, int width, int height) {
+/// Of all mirrors within `bounds`, by ids.g.
+std::map<std::uint32_t, Extent> findExtents(std::span<const uvec2> ids, int width,
+                                            const gl::Scissor& bounds) {
   std::map<std::uint32_t, Extent> extents;
   std::uint32_t lastWord = 0;
   Extent* lastExtent = nullptr;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
+  for (int y = bounds.y; y < bounds.y + bounds.height; ++y)
+    for (int x = bounds.x; x < bounds.x + bounds.width; ++x) {
       const std::uint32_t word = ids[std::size_t(y) * std::size_t(width) + std::size_t(x)].y;
       if ((word & 0xffffu) == 0) continue;
       if (!lastExtent || word != lastWord) {
@@ -40,32 +41,31 @@ std::map<std::uint32_t, Extent> findExtents(std::span<const uvec2> ids, int widt
 
 }  // namespace
 
-std::vector<raster::Chain> ChainFinder::find(const raster::Level& level,
-                                             const std::vector<raster::Chain>& parents, int bounces,
-                                             bool& isComplete) {
-  isComplete = true;
-  const int width = level.widthPx, height = level.heightPx;
-  ids_.resize(std::size_t(width) * std::size_t(height));
-  level.surfaces.readPixels(3, std::span<uvec2>(ids_));
-  std::vector<raster::Chain> chains;
-  for (const auto& [word, extent] : findExtents(ids_, width, height)) {
+VisibleMirrors ChainFinder::find(const raster::Level& level, const std::vector<raster::Chain>& parents,
+                                 int bounces) {
+  const int width = level.widthPx;
+  ids_.resize(std::size_t(width) * std::size_t(level.heightPx));
+  level.surfaces.readPixelsInPlace(3, level.drawnBounds, std::span<uvec2>(ids_));
+  VisibleMirrors mirrors;
+  for (const auto& [word, extent] : findExtents(ids_, width, level.drawnBounds)) {
     const auto parent = std::find_if(parents.begin(), parents.end(),
                                      [id = word >> 16](const raster::Chain& c) { return c.id == id; });
-    if (parent == parents.end() || lastChain_ + 1 >= kMaxChains) {
-      isComplete = false;  // the rest shows the environment
-      continue;
+    const std::uint32_t reflector = (word & 0xffffu) - 1u;
+    raster::Chain chain;
+    bool isFollowed = parent != parents.end() && lastChain_ + 1 < kMaxChains;
+    if (isFollowed) {
+      chain = raster::extendChain(*parent, reflector, world_);
+      isFollowed = chain.crossings <= scene::kMostCrossings && chain.level - chain.crossings <= bounces;
+    } else {
+      chain.parent = word >> 16;
+      chain.last = reflector;
     }
-    raster::Chain chain = raster::extendChain(*parent, (word & 0xffffu) - 1u, world_);
-    if (chain.crossings > scene::kMostCrossings || chain.level - chain.crossings > bounces) {
-      isComplete = false;
-      continue;
-    }
-    chain.id = ++lastChain_;
+    chain.id = isFollowed ? ++lastChain_ : kMaxChains;
     chain.bounds = {extent.x0, extent.y0, extent.x1 - extent.x0 + 1, extent.y1 - extent.y0 + 1};
     chain.pixels = extent.pixels;
-    chains.push_back(chain);
+    (isFollowed ? mirrors.chains : mirrors.unfollowed).push_back(chain);
   }
-  return chains;
+  return mirrors;
 }
 
 }  // namespace catoptric::renderer

@@ -11,6 +11,13 @@
 
 namespace catoptric::renderer {
 
+struct VisibleMirrors {
+  std::vector<raster::Chain> chains;
+  /// Of more bounces or crossings than are asked for, or more than ids can tell apart: they show the
+  /// environment.
+  std::vector<raster::Chain> unfollowed;
+};
+
 class ChainFinder {
  public:
   explicit ChainFinder(const scene::WorldGeometry& world) : world_(world) {}
@@ -18,11 +25,10 @@ class ChainFinder {
   /// Chains count from 1 again.
   void beginFrame() { lastChain_ = 0; }
   /// Chains of at most `bounces` mirrors and scene::kMostCrossings refractors that those visible in a level
-  /// begin; `parents`: the chains of that level. Reads the level's ids back. `isComplete`: there are no more.
-  [[nodiscard]] std::vector<raster::Chain> find(const raster::Level& level,
-                                                const std::vector<raster::Chain>& parents, int bounces,
-                                                bool& isComplete);
-  /// Of the last level, bottom row first.
+  /// begin; `parents`: the chains of that level. Reads the level's ids back.
+  [[nodiscard]] VisibleMirrors find(const raster::Level& level, const std::vector<raster::Chain>& parents,
+                                    int bounces);
+  /// Of the last level, bottom row first; only where something is drawn.
   [[nodiscard]] std::span<const uvec2> ids() const { return ids_; }
 
  private:

@@ -48,14 +48,15 @@ void forFlippedRows(const std::vector<Pixel>& pixels, int width, int height, con
       write(x, y, pixels[std::size_t(height - 1 - y) * std::size_t(width) + std::size_t(x)]);
 }
 
-/// The rectangle around all that the chains' mirrors show.
-gl::Scissor findUnion(const std::vector<raster::Chain>& chains) {
+/// The rectangle around all that the mirrors show.
+gl::Scissor findUnion(const VisibleMirrors& mirrors) {
   ivec2 lower(std::numeric_limits<int>::max()), upper(0);
-  for (const raster::Chain& chain : chains) {
-    const ivec2 corner(chain.bounds.x, chain.bounds.y);
-    lower = glm::min(lower, corner);
-    upper = glm::max(upper, corner + ivec2(chain.bounds.width, chain.bounds.height));
-  }
+  for (const auto* chains : {&mirrors.chains, &mirrors.unfollowed})
+    for (const raster::Chain& chain : *chains) {
+      const ivec2 corner(chain.bounds.x, chain.bounds.y);
+      lower = glm::min(lower, corner);
+      upper = glm::max(upper, corner + ivec2(chain.bounds.width, chain.bounds.height));
+    }
   return {lower.x, lower.y, upper.x - lower.x, upper.y - lower.y};
 }
 
@@ -67,6 +68,10 @@ void readFlipped(const gl::Framebuffer& framebuffer, int attachment, core::Image
     for (std::size_t y = begin; y < end; ++y)
       std::swap_ranges(image.data() + y * width, image.data() + (y + 1) * width,
                        image.data() + (height - 1 - y) * width);
+  });
+  core::parallelFor(height, 64, [&](std::size_t begin, std::size_t end) {
+    std::for_each(image.data() + begin * width, image.data() + end * width,
+                  [](vec4& pixel) { pixel.w = 1.0f; });
   });
 }
 
@@ -193,6 +198,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
 
   // 1
   levels_[0]->withSeen = options.withSeen;
+  levels_[0]->isLast = mostLevels == 0;
   primary_.draw(scene_, camera, context.nearPlane, jitterPx, *levels_[0]);
   context_.finish();
   frame.timings.primaryMs += millisecondsSince(start);
@@ -207,32 +213,34 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   std::uint64_t visibleReflectors = 0;
   for (int level = 0; level < mostLevels; ++level) {
     // 2
-    bool isComplete = false;
-    const std::vector<raster::Chain> chains =
-        chains_.find(*levels_[std::size_t(level)], parents, options.bounces, isComplete);
-    if (level == 0) visibleReflectors = chains.size();
-    if (chains.empty()) break;
+    const raster::Level& parent = *levels_[std::size_t(level)];
+    VisibleMirrors mirrors = chains_.find(parent, parents, options.bounces);
+    if (level == 0) visibleReflectors = mirrors.chains.size();
+    if (mirrors.chains.empty() && mirrors.unfollowed.empty()) break;
     context.parentIds = chains_.ids();
     prepareLevels(level + 2, options);
     // 3, 4
     raster::Level& target = *levels_[std::size_t(level) + 1];
-    target.clear(findUnion(chains));
-    target.isComplete = isComplete;
+    target.clear(findUnion(mirrors));
     target.withSeen = options.withSeen;
-    for (const raster::Chain& chain : chains)
-      if (raster::ReflectionMethod* method = pickMethod(chain, options)) {
-        renderMirror(*method, context, chain, *levels_[std::size_t(level)], target);
-        if (level == 0) lastMethods_[chain.last] = method;
-      } else {
-        target.isComplete = false;
-      }
+    target.isLast = level + 1 == mostLevels;
+    for (const raster::Chain& chain : mirrors.chains) {
+      raster::ReflectionMethod* method = pickMethod(chain, options);
+      if (method)
+        renderMirror(*method, context, chain, parent, target);
+      else
+        unfollowed_.draw(scene_, chain, parent, target, false);
+      if (level == 0 && method) lastMethods_[chain.last] = method;
+    }
+    for (const raster::Chain& chain : mirrors.unfollowed)
+      unfollowed_.draw(scene_, chain, parent, target, false);
     ++levelCount;
-    parents = chains;
+    parents = std::move(mirrors.chains);
   }
 
   // 5
   for (int level = levelCount - 1; level >= 0; --level)
-    compose_.draw(scene_, *levels_[std::size_t(level)],
+    compose_.draw(*levels_[std::size_t(level)],
                   level + 1 < levelCount ? levels_[std::size_t(level) + 1].get() : nullptr);
   context_.finish();
   context_.check("a frame");
@@ -292,8 +300,8 @@ void RasterFrame::readSeen(const raster::Level& level, Frame& frame) const {
   const int width = level.widthPx, height = level.heightPx;
   std::vector<vec4> points(std::size_t(width) * std::size_t(height));
   std::vector<uvec2> ids(points.size());
-  level.composed.readPixels(1, std::span<vec4>(points));
-  level.composed.readPixels(2, std::span<uvec2>(ids));
+  level.seen.readPixels(0, std::span<vec4>(points));
+  level.seen.readPixels(1, std::span<uvec2>(ids));
   frame.seen = core::SeenImage(width, height);
   forFlippedRows(points, width, height, [&](int x, int y, const vec4& p) {
     core::SeenPixel& seen = frame.seen.at(x, y);

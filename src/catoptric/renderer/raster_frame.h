@@ -60,6 +60,7 @@ class RasterFrame {
   raster::SurfacePass surfaces_;
   raster::PrimaryPass primary_;
   raster::ComposePass compose_;
+  raster::MirrorBackgroundPass unfollowed_;
   raster::MirrorMask mask_;
   planar_mirror::PlanarMirrorMethod planar_;
   virtual_object::HitShading hits_;

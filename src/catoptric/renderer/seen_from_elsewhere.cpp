@@ -43,7 +43,7 @@ core::ImageRgbaF RasterFrame::renderElsewhere(const scene::CameraFrame& camera,
     marksPass_->draw(marks, clipFromWorld, level);
   }
   // 4
-  compose_.draw(scene_, level, nullptr);
+  compose_.draw(level, nullptr);
   core::ImageRgbaF picture(camera.widthPx, camera.heightPx);
   level.composed.readPixels(0, std::span<vec4>(picture.pixels()));
   for (int y = 0; y < camera.heightPx / 2; ++y)

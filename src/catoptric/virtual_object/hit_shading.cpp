@@ -193,6 +193,7 @@ gl::Program& HitShading::findProgram(Pass pass, unsigned variant) {
     if (pass == Pass::Blend) defines.emplace_back("OVERLAY");
     if ((variant & kMirror) != 0) defines.emplace_back("MIRROR");
     if ((variant & kSeen) != 0) defines.emplace_back("SEEN");
+    if ((variant & kEnvironment) != 0) defines.emplace_back("ENVIRONMENT");
     if (pass == Pass::ShadeVirtualEdge) defines.emplace_back("EDGE");
     const char* file = pass == Pass::MaskedHits ? "virtual_object/exact_hit.frag"
                        : isVirtual(pass)        ? "virtual_object/virtual_shade.frag"
@@ -217,23 +218,28 @@ void HitShading::shadeVirtual(raster::FrameContext& frame, const raster::Chain& 
     framebuffer.bind();
     gl::setScissor(chain.bounds);
     gl::setDrawState({.depthTest = true, .depthWrite = true});
-    drawParts(frame, chain, parent, isEdge ? Pass::ShadeVirtualEdge : Pass::ShadeVirtual, some, output);
+    drawVariants(frame, chain, parent, isEdge ? Pass::ShadeVirtualEdge : Pass::ShadeVirtual, some, output);
   };
-  drawInto(target.surfaces, kMirror, mirrorRects_);
-  drawInto(target.plainTarget(), target.withSeen ? kSeen : 0u, otherRects_);
+  const unsigned plain = target.withSeen ? kSeen : 0u;
+  if (target.isLast)
+    drawInto(target.plainTarget(), plain | kEnvironment, mirrorRects_);
+  else
+    drawInto(target.surfaces, kMirror, mirrorRects_);
+  drawInto(target.plainTarget(), plain, otherRects_);
 }
 
-void HitShading::drawParts(raster::FrameContext& frame, const raster::Chain& chain,
-                           const raster::Level& parent, Pass pass, std::span<const CoverRect> rects,
-                           unsigned output) {
+void HitShading::drawVariants(raster::FrameContext& frame, const raster::Chain& chain,
+                              const raster::Level& parent, Pass pass, std::span<const CoverRect> rects,
+                              unsigned output) {
   const scene::WorldGeometry& world = frame.scene.geometry();
   const bool isByPart = pass == Pass::Shade || isVirtual(pass);
   const auto partOf = [&](const CoverRect& r) { return isByPart ? r.item : world.triangleParts[r.item]; };
   uploadRects(rects, !isByPart);
   std::bitset<kVariants> prepared;  // whose program knows this chain
   forRuns(rects, partOf, [&](std::uint32_t part, std::size_t first, std::size_t count) {
-    const unsigned variant =
+    unsigned variant =
         frame.scene.textureBits(world.parts[part].material) | triangles_->attributes(part) | output;
+    if (world.parts[part].reflector == core::kNoId) variant &= ~unsigned(kEnvironment);
     gl::Program& program = findProgram(pass, variant);
     program.use();
     if (!prepared[variant]) {

@@ -64,10 +64,10 @@ class HitShading {
   void bindInputs(gl::Program& program, const raster::Level& parent, const raster::Chain& chain) const;
 
   /// Step 3: rectangles of one part after another, each with the program for its material, into the target
-  /// that is bound.
+  /// that is bound. `isLast`: Level::isLast of it.
   void drawParts(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
-                 Pass pass, std::span<const CoverRect> rects) {
-    drawParts(frame, chain, parent, pass, rects, 0);
+                 Pass pass, std::span<const CoverRect> rects, bool isLast = false) {
+    drawVariants(frame, chain, parent, pass, rects, isLast ? kEnvironment : 0u);
   }
   /// Step 3 for hits that are those of virtual triangles, with the length of the path to them, and their
   /// depth. `isEdge`: pixels that are not of this mirror lie in between; item: part.
@@ -88,15 +88,16 @@ class HitShading {
     gl::Framebuffer rays, hitTests;
   };
   /// Bits of the textures (SceneBuffers::textureBits()), of VertexAttribute and of these.
-  enum Target : unsigned { kMirror = 128, kSeen = 256 };
-  static constexpr unsigned kVariants = 512;
+  enum Target : unsigned { kMirror = 128, kSeen = 256, kEnvironment = 512 };
+  static constexpr unsigned kVariants = 1024;
   [[nodiscard]] gl::Program& findProgram(Pass pass, unsigned variant);
   /// The same as bindInputs() for virtual_shade.frag, which takes its rays from the parent.
   void bindVirtualInputs(gl::Program& program, const raster::Level& parent, const raster::Chain& chain) const;
   void bindHits(gl::Program& program, const raster::Level& parent, const raster::Chain& chain) const;
   void uploadRects(std::span<const CoverRect> rects, bool withItems);
-  void drawParts(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
-                 Pass pass, std::span<const CoverRect> rects, unsigned output);
+  /// `output`: bits of Target.
+  void drawVariants(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
+                    Pass pass, std::span<const CoverRect> rects, unsigned output);
 
   gl::Program rayProgram_;
   /// Passes that read a material's textures: programs made when first used.

@@ -108,7 +108,7 @@ void ExactMethod::shadeHits(raster::FrameContext& frame, const raster::Chain& ch
   target.surfaces.bind();
   gl::setScissor(chain.bounds);
   gl::setDrawState({.depthTest = true, .depthWrite = true});
-  shading_.drawParts(frame, chain, parent, HitShading::Pass::Shade, cover_.parts);
+  shading_.drawParts(frame, chain, parent, HitShading::Pass::Shade, cover_.parts, target.isLast);
 }
 
 void ExactMethod::drawBlended(raster::FrameContext& frame, const raster::Chain& chain,
@@ -127,7 +127,7 @@ void ExactMethod::drawBlended(raster::FrameContext& frame, const raster::Chain& 
   if (!target.hasOverlay) target.overlays.clearColor(0, vec4(0.0f));
   target.hasOverlay = true;
   gl::setScissor(chain.bounds);
-  gl::setDrawState({.depthTest = true, .depthWrite = false, .blendPremultiplied = true});
+  gl::setDrawState({.depthTest = true, .depthWrite = false, .blend = gl::Blend::Premultiplied});
   shading_.drawParts(frame, chain, parent, HitShading::Pass::Blend, cover_.blended);
 }
 
