@@ -8,14 +8,15 @@ uniform sampler2D u_vertices;      // kVertexTexels each, see exact_point.glsl
 
 const int kVertexTexels = 5;
 
-ivec2 texelAt(int index, int width) { return ivec2(index % width, index / width); }
+/// In rows of 2048 texels: software rasterizers divide by any other width lane by lane.
+ivec2 texelAt(int index) { return ivec2(index & 2047, index >> 11); }
 
 uvec4 readTriangle(uint triangle) {
-  return texelFetch(u_triangles, texelAt(int(triangle), textureSize(u_triangles, 0).x), 0);
+  return texelFetch(u_triangles, texelAt(int(triangle)), 0);
 }
 
 vec4 readVertex(uint vertex, int texel) {
-  return texelFetch(u_vertices, texelAt(int(vertex) * kVertexTexels + texel, textureSize(u_vertices, 0).x), 0);
+  return texelFetch(u_vertices, texelAt(int(vertex) * kVertexTexels + texel), 0);
 }
 
 /// Where a ray meets a triangle; `weights` of its three corners.

@@ -14,11 +14,11 @@ namespace {
 
 constexpr std::size_t kVertexTexels = 5;
 
-/// Rows of a width that every GL takes.
+constexpr int kTableWidth = 2048;  // shaders/virtual_object/exact_ray.glsl
+
 ivec2 findTableSize(std::size_t texels) {
-  const int width = std::min(4096, gl::maxTextureSize());
-  const std::size_t height = std::max<std::size_t>(1, (texels + std::size_t(width) - 1) / std::size_t(width));
-  return {width, int(std::min<std::size_t>(height, std::numeric_limits<int>::max()))};
+  const std::size_t height = std::max<std::size_t>(1, (texels + kTableWidth - 1) / kTableWidth);
+  return {kTableWidth, int(std::min<std::size_t>(height, std::numeric_limits<int>::max()))};
 }
 
 /// Filled up with zeros.
