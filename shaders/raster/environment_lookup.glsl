@@ -3,7 +3,6 @@
 
 uniform sampler2D u_environment;           // latitude-longitude radiance with mip levels
 uniform sampler2DArray u_prefiltered;      // blurred by roughness, one layer each
-uniform vec3 u_irradiance[9];              // spherical harmonics of irradiance / pi
 uniform float u_environmentMaxLod;
 uniform float u_prefilteredLast;           // index of the last layer
 
@@ -24,9 +23,4 @@ vec3 lookUpPrefiltered(vec3 direction, float roughness) {
   vec3 fine = textureLod(u_prefiltered, vec3(uv, lower), 0.0f).rgb;
   vec3 coarse = textureLod(u_prefiltered, vec3(uv, min(lower + 1.0f, u_prefilteredLast)), 0.0f).rgb;
   return mix(fine, coarse, layer - lower);
-}
-
-vec3 lookUpIrradiance(vec3 normal) {
-  return evaluateIrradiance(u_irradiance[0], u_irradiance[1], u_irradiance[2], u_irradiance[3], u_irradiance[4],
-                            u_irradiance[5], u_irradiance[6], u_irradiance[7], u_irradiance[8], normal);
 }

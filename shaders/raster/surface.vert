@@ -2,6 +2,10 @@
 // In: world-space vertices of the scene, and where each is to be drawn (itself, or its virtual vertex).
 // Out: clip space; world-space attributes for shading at the real surface point (1998, section 2.1).
 
+#ifdef FLAT_CONSTANTS
+#include "raster/hand_on_constants.glsl"
+#endif
+
 layout(location = 0) in vec3 a_position;      // world, the real vertex
 layout(location = 1) in vec3 a_normal;        // world
 layout(location = 2) in vec4 a_tangent;       // world, w = handedness, zero if the mesh has none
@@ -26,6 +30,9 @@ out vec4 v_color;
 out vec3 v_drawPosition;
 
 void main() {
+#ifdef FLAT_CONSTANTS
+  handOnConstants();
+#endif
   v_position = a_position;
   v_normal = a_normal;
   v_tangent = a_tangent;

@@ -2,14 +2,12 @@
 // From a point of a surface, with how its attributes change per pixel, to the light that leaves it. World space. Shared
 // by every pass that shades surfaces; the ray tracer has the same rules in reference/surface_shading.
 
+#include "raster/irradiance_lookup.glsl"
+
 const int kMaxLights = 16;
 
 uniform uint u_objectWord;        // (object + 1) | shell << 31
 uniform uint u_reflectorWord;     // (reflector + 1) | chain << 16
-uniform float u_reflectivity;     // of the part, 0 for everything that is no reflector
-uniform float u_clearcoat;
-uniform float u_ior;              // of a refractor's solid, 0 for everything else
-uniform float u_transmission;
 uniform int u_lightCount;
 uniform vec4 u_lights[4 * kMaxLights];  // color+kind, position+range, direction+cosInner, cosOuter
 
@@ -96,7 +94,7 @@ PunctualLight readLight(int i) {
 /// ids.r of a pixel whose mirrored or refracted ray goes on inside a refractor's solid. `wasInside`: so did the ray that
 /// met this point.
 uint objectWordBehind(ShadedPoint shaded, bool isFront, bool wasInside) {
-  bool isInside = u_ior > 0.0f ? isFront != shaded.isTotal : wasInside;
+  bool isInside = u_lobes.z > 0.0f ? isFront != shaded.isTotal : wasInside;
   return u_objectWord | (isInside ? kInsideBit : 0u);
 }
 
@@ -118,10 +116,10 @@ ShadedPoint shadePoint(SurfacePoint p, vec3 normal, vec3 baseColor) {
   s.occlusion = 1.0f;
   if (hasTexture(3)) s.occlusion = mix(1.0f, readSlot(u_occlusion, 3, p).r, m_factors.z);
   s.f0Dielectric = m_more.x;
-  s.reflectivity = u_reflectivity;
-  s.clearcoat = u_clearcoat;
-  s.transmission = u_transmission;
-  s.eta = u_ior > 0.0f ? relativeIndex(u_ior, p.isFront) : 0.0f;
+  s.reflectivity = u_lobes.x;
+  s.clearcoat = u_lobes.y;
+  s.transmission = u_lobes.w;
+  s.eta = u_lobes.z > 0.0f ? relativeIndex(u_lobes.z, p.isFront) : 0.0f;
 
   ShadedPoint shaded;
   shaded.isTotal = false;

@@ -3,6 +3,9 @@
 // triangle in two halves (floats hold 24 bits). Out: the triangle's corners, world, the same at all four.
 
 #include "virtual_object/exact_ray.glsl"
+#ifdef FLAT_CONSTANTS
+#include "raster/hand_on_constants.glsl"
+#endif
 
 layout(location = 0) in vec4 a_cover;  // x, y; low 12 bits, rest of the triangle's number
 
@@ -16,6 +19,9 @@ flat out vec3 v_c;
 flat out vec3 v_normal;
 
 void main() {
+#ifdef FLAT_CONSTANTS
+  handOnConstants();
+#endif
   v_triangle = uint(a_cover.z) + uint(a_cover.w) * 4096u;
   uvec4 corners = readTriangle(v_triangle);
   v_part = corners.w;

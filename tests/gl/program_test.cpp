@@ -36,7 +36,7 @@ TEST_F(ProgramTest, includesAreReplacedAndDefinesComeFirst) {
   EXPECT_EQ(text.rfind("#version 330 core\n", 0), 0u);
   EXPECT_EQ(countOf(text, "#include"), 0u);
   EXPECT_EQ(countOf(text, "vec3 fresnelSchlick("), 1u);        // of lib/brdf.glsl
-  EXPECT_EQ(countOf(text, "uniform vec3 u_irradiance["), 1u);  // of raster/environment_lookup.glsl
+  EXPECT_EQ(countOf(text, "uniform vec3 u_irradiance["), 1u);  // of raster/material_block.glsl
   EXPECT_LT(text.find("#define OVERLAY\n"), text.find("fresnelSchlick"));
   EXPECT_LT(text.find("#define COUNT 7\n"), text.find("fresnelSchlick"));
 }

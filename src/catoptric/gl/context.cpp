@@ -108,8 +108,7 @@ Context::Context(const ContextOptions& options) : impl_(std::make_unique<Impl>()
     return std::string(value ? value : "?");
   };
   impl_->description = fmt::format("{}, OpenGL {}", text(GL_RENDERER), text(GL_VERSION));
-  impl_->software = text(GL_RENDERER).find("llvmpipe") != std::string::npos ||
-                    text(GL_RENDERER).find("softpipe") != std::string::npos;
+  impl_->software = isSoftwareRenderer();
   if (options.debug && GLAD_GL_KHR_debug) {
     glEnable(GL_DEBUG_OUTPUT);
     glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
@@ -146,6 +145,12 @@ void Context::finish() {
 
 const std::string& Context::description() const {
   return impl_->description;
+}
+
+bool isSoftwareRenderer() {
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string renderer(name ? name : "");
+  return renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos;
 }
 
 bool Context::isSoftware() const {

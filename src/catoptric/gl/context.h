@@ -8,6 +8,9 @@
 
 namespace catoptric::gl {
 
+/// Does the current context draw on the CPU (llvmpipe, softpipe)?
+[[nodiscard]] bool isSoftwareRenderer();
+
 struct ContextOptions {
   /// Debug context: any GL error or message of medium or high severity is remembered and thrown by check().
   bool debug = false;

@@ -5,7 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "catoptric/gl/context.h"
+
 namespace catoptric::raster {
+
+void addConstantsDefine(std::vector<std::string>& defines) {
+  if (gl::isSoftwareRenderer()) defines.emplace_back("FLAT_CONSTANTS");
+}
 
 void bindSurfaceShading(gl::Program& program, const SceneBuffers& scene) {
   scene.bindEnvironment(program);
@@ -21,10 +27,13 @@ void bindPart(gl::Program& program, const SceneBuffers& scene, std::uint32_t ind
   const bool isReflector = part.reflector != core::kNoId;
   program.set("u_objectWord", (part.object + 1u) | (part.shell ? 0x80000000u : 0u));
   program.set("u_reflectorWord", (isReflector ? part.reflector + 1u : 0u) | (chain ? chain->id << 16 : 0u));
-  program.set("u_reflectivity", isReflector ? world.reflectors[part.reflector].reflectivity : 0.0f);
-  program.set("u_clearcoat", isReflector ? world.reflectors[part.reflector].clearcoat : 0.0f);
-  program.set("u_ior", isReflector ? world.reflectors[part.reflector].ior : 0.0f);
-  program.set("u_transmission", scene.material(part.material).transmission);
+  const float transmission = scene.material(part.material).transmission;
+  vec4 lobes(0, 0, 0, transmission);
+  if (isReflector) {
+    const scene::Reflector& reflector = world.reflectors[part.reflector];
+    lobes = vec4(reflector.reflectivity, reflector.clearcoat, reflector.ior, transmission);
+  }
+  program.set("u_lobes", lobes);
   scene.bindMaterial(part.material);
 }
 
@@ -58,6 +67,7 @@ gl::Program& SurfacePass::findProgram(unsigned features) {
         {kEnvironment, "ENVIRONMENT"}};
     for (const auto& [feature, name] : names)
       if ((features & feature) != 0) defines.emplace_back(name);
+    addConstantsDefine(defines);
     program = std::make_unique<gl::Program>("raster/surface.vert", "raster/surface.frag", defines);
     program->bindBlock("Material", 0);
   }

@@ -74,6 +74,9 @@ class SurfacePass {
   std::vector<DrawRange> mirrors_, others_;
 };
 
+/// For programs that shade surfaces: how their constants get to the fragments
+/// (raster/hand_on_constants.glsl).
+void addConstantsDefine(std::vector<std::string>& defines);
 /// Sets what raster/surface_shading.glsl needs, for any part; the program must be in use.
 void bindSurfaceShading(gl::Program& program, const SceneBuffers& scene);
 /// And for one part, its material included.

@@ -198,6 +198,7 @@ gl::Program& HitShading::findProgram(Pass pass, unsigned variant) {
     const char* file = pass == Pass::MaskedHits ? "virtual_object/exact_hit.frag"
                        : isVirtual(pass)        ? "virtual_object/virtual_shade.frag"
                                                 : "virtual_object/exact_shade.frag";
+    raster::addConstantsDefine(defines);
     program = std::make_unique<gl::Program>("virtual_object/exact_cover.vert", file, defines);
     program->bindBlock("Material", 0);
   }
