@@ -5,8 +5,12 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace catoptric::gl {
+
+/// Whether GL_RENDERER names a rasterizer that runs on the processor.
+[[nodiscard]] bool isSoftwareRenderer(std::string_view name);
 
 struct ContextOptions {
   /// Debug context: any GL error or message of medium or high severity is remembered and thrown by check().

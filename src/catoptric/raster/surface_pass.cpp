@@ -44,6 +44,7 @@ void setView(gl::Program& program, const SceneBuffers& scene, const SurfaceView&
   program.set("u_clipPlanes", planes);
   if (view.parent) view.parent->bindAsParent(program);
   program.set("u_parentWord", view.chain ? view.chain->parentWord() : 0u);
+  if (view.bindVertexShader) view.bindVertexShader(program);
 }
 
 }  // namespace
@@ -57,7 +58,8 @@ gl::Program& SurfacePass::findProgram(unsigned features) {
                                                      {kIds, "MASK"},        {kClip, "CLIP"}};
     for (const auto& [feature, name] : names)
       if ((features & feature) != 0) defines.emplace_back(name);
-    program = std::make_unique<gl::Program>("raster/surface.vert", "raster/surface.frag", defines);
+    defines.insert(defines.end(), vertexDefines_.begin(), vertexDefines_.end());
+    program = std::make_unique<gl::Program>(vertexFile_, "raster/surface.frag", defines);
     program->bindBlock("Material", 0);
   }
   return *program;

@@ -257,6 +257,16 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   frame.counters.reflectorsCulled = geometry_.reflectors.size() - visibleReflectors;
 }
 
+bool RasterFrame::findsVerticesOnGpu(const FrameOptions& options) const {
+  if (options.backend == Backend::Cpu) return false;
+  if (options.backend == Backend::Auto) return !context_.isSoftware() && hasVertexShader(options.solver);
+  if (!hasVertexShader(options.solver))
+    throw core::Error("renderer.backend",
+                      fmt::format("solver '{}' has no vertex shader", solverName(options.solver)), {},
+                      "use backend cpu, or solver explosion, layered or refined");
+  return true;
+}
+
 void RasterFrame::prepareMorphing(const dvec3& eye, const FrameOptions& options) {
   using namespace reflection_morphing;
   morphing_.setDynamic(options.allDynamic);
@@ -315,7 +325,7 @@ Frame RasterFrame::render(const scene::CameraFrame& camera, const FrameOptions& 
   Frame frame;
   const int samples = std::max(1, options.samples);
   prepareLevels(1, options);
-  virtual_.setSolver(virtualObjectSolver(options.solver));
+  virtual_.setSolver(virtualObjectSolver(options.solver), findsVerticesOnGpu(options));
   if (options.method == Method::Morphing) prepareMorphing(camera.eye, options);
   zexel_.setOptions(options.zexel);
   if (options.method == Method::Zexel) prepareZexels(options);
