@@ -38,13 +38,15 @@ VirtualObjectMethod::Prepared& VirtualObjectMethod::prepareReflector(const raste
     flipped = facing < 0;
   }
   const double size = raster::findTessellationSize(reflector, drawEye, frame.camera);
-  const bool isSeenDirectly = chain.drawFromWorld == dmat4(1.0) && solver_ != Solver::Explosion;
-  std::unique_ptr<Prepared>& slot = prepared_[{*chain.curved, flipped, isSeenDirectly, size}];
+  const bool isMirrored = chain.drawFromWorld != dmat4(1.0);
+  const bool isSeenDirectly = !isMirrored && solver_ != Solver::Explosion;
+  std::unique_ptr<Prepared>& slot = prepared_[{*chain.curved, flipped, isMirrored, isSeenDirectly, size}];
   if (!slot || slot->maxErrorPx != frame.maxErrorPx)
-    slot = std::make_unique<Prepared>(
-        world, *chain.curved, flipped,
-        raster::TessellationOptions{
-            .maxErrorPx = frame.maxErrorPx, .reflectorDiameterPx = size, .isSeenDirectly = isSeenDirectly});
+    slot = std::make_unique<Prepared>(world, *chain.curved, flipped,
+                                      raster::TessellationOptions{.maxErrorPx = frame.maxErrorPx,
+                                                                  .reflectorDiameterPx = size,
+                                                                  .isSeenDirectly = isSeenDirectly,
+                                                                  .keepsBehind = isMirrored});
   return *slot;
 }
 

@@ -125,9 +125,9 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   std::vector<vec2> screen_;
   PartRects rects_;
   raster::MirrorBackgroundPass background_;
-  /// By reflector, whether it is seen from behind, whether it sees the objects directly, size of the
-  /// tessellation.
-  std::map<std::tuple<std::uint32_t, bool, bool, double>, std::unique_ptr<Prepared>> prepared_;
+  /// By reflector, whether it is seen from behind, whether flat mirrors stand behind it, whether objects that
+  /// turn their back to it are left out, size of the tessellation.
+  std::map<std::tuple<std::uint32_t, bool, bool, bool, double>, std::unique_ptr<Prepared>> prepared_;
   std::map<std::uint32_t, Prepared*> last_;  ///< of the last frame, by reflector seen directly
 };
 
