@@ -149,10 +149,12 @@ raster::ReflectionMethod* RasterFrame::pickMethod(const raster::Chain& chain, co
   if (options.method == Method::Zexel && zexel_.supports(chain)) return &zexel_;
   const bool isMorphing = options.method == Method::Morphing;
   if (isMorphing && chain.curved && isMapped(chain, options)) return &environment_;
+  const bool isAuto = options.solver == Solver::Auto;
   const bool needsExact =
-      chain.hasSecondCurved ||
-      (chain.curved && Renderer::chooseMethod(geometry_.reflectors[*chain.curved]).solver == Solver::Exact);
-  const bool wantsExact = options.solver == Solver::Exact || (options.solver == Solver::Auto && needsExact);
+      chain.curved && Renderer::chooseMethod(geometry_.reflectors[*chain.curved]).solver == Solver::Exact;
+  // A vertex has a reflection point in one curved mirror; what two of them show is found by the pixels' rays.
+  const bool wantsExact = options.solver == Solver::Exact || (isAuto && needsExact) ||
+                          (chain.hasSecondCurved && (isAuto || options.solver == Solver::Refined));
   if (!isMorphing && wantsExact && exact_.supports(chain)) return &exact_;
   raster::ReflectionMethod* curved = &virtual_;
   if (isMorphing) curved = &morphing_;
