@@ -28,7 +28,7 @@ Row derivative(const dvec3& x, int k) {
     if (mixed[m][0] == k) row[3 + m] += x[mixed[m][1]];
     if (mixed[m][1] == k) row[3 + m] += x[mixed[m][0]];
   }
-  row[std::size_t(6 + k)] = 1;
+  row[6 + std::size_t(k)] = 1;
   return row;
 }
 

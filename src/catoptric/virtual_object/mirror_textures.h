@@ -5,10 +5,9 @@
 //      map. All are made on the processor: their exact ids, extension polygons and patches are those of the
 //      CPU backend.
 // Out: what shaders/virtual_object/mirror_maps.glsl reads; frame: world axes, origin at the mesh's centre.
-// Five textures, at units behind those of a level: with a material's, the environment's and the level's they
-// are the 16 that every GLSL ES 3.00 device has for a vertex shader and more than it has to have for none.
-// Cost: 48 bytes a triangle and map, 4 a map pixel, sent once for each eye; a vertex fetches about 40 texels,
-// one of `refined` 10 more a step.
+// Five textures, at the units behind those of a level. A vertex shader of OpenGL ES 3.0 may read 16, and it
+// and the fragment shader 32 together; here they are 5 and 16. Cost: 48 bytes a triangle and map, 4 a map
+// pixel, sent once for each eye; a vertex fetches about 40 texels, one of `refined` 10 more a step.
 #pragma once
 
 #include <array>
