@@ -42,6 +42,7 @@ Json makeRow(const MethodVariant& variant, const renderer::FrameOptions& frame, 
   return {{"name", variant.name},
           {"method", std::string(renderer::methodName(variant.method))},
           {"solver", std::string(renderer::solverName(variant.solver))},
+          {"backend", renderer::backendName(withMethod(frame, variant).backend)},
           {"box_corrected", variant.boxCorrected},
           {"width", frame.widthPx},
           {"height", frame.heightPx},
@@ -88,7 +89,7 @@ std::string makeTable(const std::vector<MethodVariant>& variants, const std::vec
 
 int run(const Options& options) {
   applyOutput(options.output);
-  checkMerge(options.picture.frame, options.variants);
+  checkVariants(options.picture.frame, options.variants);
   const auto loaded = loadScene(options.source, options.scene);
   const scene::Camera camera = chooseCamera(*loaded, options.camera);
   loadEnvironment(*loaded, options.picture.environment);
@@ -144,6 +145,7 @@ Command makeBenchCommand() {
                              setInteger("--repeat", options->repeats, 1, kMostRepeats));
             declareBaked(arguments, options->picture.frame);
             declarePicture(arguments, options->picture);
+            declareBackend(arguments, options->picture.frame);
             declareMerge(arguments, options->picture.frame);
             declareZexels(arguments, options->picture.frame.zexel);
             declareCamera(arguments, options->camera);

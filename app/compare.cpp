@@ -129,7 +129,7 @@ int run(Options options, const std::vector<std::string>& line) {
                 [](const MethodVariant& v) { return v.method == renderer::Method::RayTrace; });
   if (options.variants.empty()) throw UsageError("--methods: there is nothing to compare with the truth");
   checkLimits(options.limits, options.variants);
-  checkMerge(options.picture.frame, options.variants);
+  checkVariants(options.picture.frame, options.variants);
   for (const std::string& source : options.sources) checkSource(source);
   makeFolder(options.folder);
 
@@ -170,6 +170,7 @@ void declare(Arguments& arguments, const std::shared_ptr<Options>& options) {
   declareBaked(arguments, options->picture.frame);
   declareLimits(arguments, options->limits);
   declarePicture(arguments, options->picture);
+  declareBackend(arguments, options->picture.frame);
   declareMerge(arguments, options->picture.frame);
   declareZexels(arguments, options->picture.frame.zexel);
   declareCamera(arguments, options->camera);

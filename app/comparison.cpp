@@ -177,6 +177,7 @@ Json makeJson(const Comparison& comparison, const ComparisonRow& row) {
             {"name", row.variant.name},
             {"method", std::string(renderer::methodName(row.variant.method))},
             {"solver", std::string(renderer::solverName(row.variant.solver))},
+            {"backend", renderer::backendName(withMethod(comparison.frame, row.variant).backend)},
             {"box_corrected", row.variant.boxCorrected},
             {"width", comparison.frame.widthPx},
             {"height", comparison.frame.heightPx},

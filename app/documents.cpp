@@ -51,11 +51,17 @@ Json makeErrorDocument(const core::Error& error) {
             {"hint", error.hint()}}}};
 }
 
+void addGl(renderer::Renderer& renderer, Json& environment) {
+  environment["gl_renderer"] = describeOr([&] { return renderer.describeGl(); });
+  environment["backend_auto"] =
+      describeOr([&] { return std::string(renderer::backendName(renderer.chooseBackend())); });
+}
+
 Json makeDocument(const std::string& command, renderer::Renderer* renderer) {
   Json environment{{"version", kVersion},   {"commit", kCommit},          {"build", kBuildType},
                    {"compiler", kCompiler}, {"system", describeSystem()}, {"threads", core::threadCount()}};
   if (renderer != nullptr) {
-    environment["gl_renderer"] = describeOr([&] { return renderer->describeGl(); });
+    addGl(*renderer, environment);
     environment["embree"] = describeOr([&] { return renderer->describeRayTracer(); });
   }
   return {{"schema", 1}, {"command", command}, {"environment", environment}};

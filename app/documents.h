@@ -26,6 +26,8 @@ void writeDocument(const std::string& file, const Json& document);
 /// {"schema": 1, "command": ..., "environment": {...}}; the renderer says which GL and Embree build it runs
 /// on.
 [[nodiscard]] Json makeDocument(const std::string& command, renderer::Renderer* renderer);
+/// "gl_renderer" and "backend_auto" (what --backend auto stands for there); makes the renderer's context.
+void addGl(renderer::Renderer& renderer, Json& environment);
 [[nodiscard]] Json makeJson(const scene::Camera& camera);
 [[nodiscard]] Json makeJson(const dvec3& vector);
 [[nodiscard]] Json makeSceneJson(const LoadedScene& loaded);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "catoptric/core/file.h"
 #include "catoptric/core/image_io.h"
@@ -44,6 +45,33 @@ const DrawingKind& findKind(const std::string& name) {
   return *kind;
 }
 
+/// An option that the drawing has no use for is a mistake.
+void checkUses(const DrawingKind& kind, const Options& options) {
+  const DrawingOptions standard;
+  const DrawingOptions& drawing = options.drawing;
+  const renderer::FrameOptions plain, &frame = options.frame.frame;
+  const std::pair<std::string_view, bool> given[] = {
+      {"--from", drawing.from.has_value()},
+      {"--at", drawing.at.has_value()},
+      {"--from-fov", drawing.fromFovDegrees != standard.fromFovDegrees},
+      {"--point", !drawing.points.empty()},
+      {"--object", !drawing.objects.empty()},
+      {"--count", drawing.count != standard.count},
+      {"--width", drawing.width != standard.width},
+      {"--spacing", drawing.spacing != standard.spacing},
+      {"--samples", frame.samples != plain.samples},
+      {"--bounces", frame.bounces != plain.bounces},
+      {"--max-error", frame.maxErrorPx != plain.maxErrorPx},
+      {"--environment", !options.frame.environment.empty()},
+      {"--exposure", options.frame.exposure != PictureOptions{}.exposure},
+      {"--zexel", frame.zexel != plain.zexel}};
+  for (const auto& [name, isGiven] : given)
+    if (isGiven && (" " + kind.uses + " ").find(fmt::format(" {} ", name)) == std::string::npos)
+      throw UsageError(
+          fmt::format("{}{}: --show {} has no use for it", name, name == "--zexel" ? "-..." : "", kind.name),
+          "leave it out");
+}
+
 void writeDrawing(const std::string& file, PictureFormat format, const core::ImageRgba8& picture) {
   if (file == "-" || format == PictureFormat::Png) return writePng(file, picture);
   core::writeFileAtomically(file, std::span<const std::byte>(core::encodeJpeg(picture)));
@@ -52,6 +80,7 @@ void writeDrawing(const std::string& file, PictureFormat format, const core::Ima
 int run(const Options& options) {
   applyOutput(options.output);
   const DrawingKind& kind = findKind(options.drawing.what);
+  checkUses(kind, options);
   if (options.picture.empty()) throw UsageError("where to write to is missing", "add -o picture.png");
   const PictureFormat format = findPictureFormat("-o", options.picture);
   if (format == PictureFormat::Exr)

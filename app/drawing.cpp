@@ -53,22 +53,32 @@ scene::Camera makeThirdEye(const Drawing& drawing, const dvec3& middle) {
 }  // namespace
 
 const std::vector<DrawingKind>& drawingKinds() {
+  static const std::string picture = "--samples --exposure --environment ";
+  static const std::string aside = picture + "--from --at --from-fov ";
   static const std::vector<DrawingKind> kKinds{
-      {"explosion-maps", "near, far and hidden map of a curved mirror", drawExplosionMaps},
-      {"subdivision", "the cells of its reflection subdivision, in a plane through the eye", drawSubdivision},
-      {"mapping", "how a reflected ray gets its place in an explosion map", drawMapping},
-      {"near-look-up", "what the near map says of a point", drawNearLookUp},
-      {"look-up", "what both maps say of a point, and their blend", drawLookUp},
-      {"cell", "a reflected and a hidden cell, from aside", drawCell},
-      {"virtual-object", "virtual triangles, from aside", drawVirtualObject},
-      {"camera-rays", "the rays of a camera over its mirrors", drawCameraRays},
-      {"sampling-cell", "what the corners of a sampling cell know of a point", drawSamplingCell},
-      {"ray-octree", "the ray octree of a sampling location", drawRayOctree},
-      {"reflection-mesh", "the triangles that morphing draws, over its picture", drawReflectionMesh},
-      {"reflection-cell", "the texels of an environment map", drawReflectionCell},
-      {"mapped-rays", "what an environment map shows, and what it should", drawMappedRays},
-      {"zexels", "zexels of a flat mirror, where they are in space", drawZexels},
-      {"exposures", "mirror pixels that no zexel reached", drawExposures}};
+      {"explosion-maps", "near, far and hidden map of a curved mirror", drawExplosionMaps, {}},
+      {"subdivision", "the cells of its reflection subdivision, in a plane through the eye", drawSubdivision,
+       "--count --point --width"},
+      {"mapping", "how a reflected ray gets its place in an explosion map", drawMapping, "--width"},
+      {"near-look-up", "what the near map says of a point", drawNearLookUp, "--point --width"},
+      {"look-up", "what both maps say of a point, and their blend", drawLookUp, "--point --width"},
+      {"cell", "a reflected and a hidden cell, from aside", drawCell, aside + "--point --width"},
+      {"virtual-object", "virtual triangles, from aside", drawVirtualObject,
+       aside + "--object --max-error --count --point"},
+      {"camera-rays", "the rays of a camera over its mirrors", drawCameraRays, aside + "--count --bounces"},
+      {"sampling-cell", "what the corners of a sampling cell know of a point", drawSamplingCell,
+       aside + "--spacing --point"},
+      {"ray-octree", "the ray octree of a sampling location", drawRayOctree, aside + "--spacing --point"},
+      {"reflection-mesh", "the triangles that morphing draws, over its picture", drawReflectionMesh,
+       picture + "--bounces --max-error --spacing"},
+      {"reflection-cell", "the texels of an environment map", drawReflectionCell,
+       aside + "--count --width --point"},
+      {"mapped-rays", "what an environment map shows, and what it should", drawMappedRays,
+       aside + "--count --point"},
+      {"zexels", "zexels of a flat mirror, where they are in space", drawZexels,
+       aside + "--count --bounces --zexel"},
+      {"exposures", "mirror pixels that no zexel reached", drawExposures,
+       picture + "--bounces --max-error --zexel"}};
   return kKinds;
 }
 

@@ -44,6 +44,7 @@ struct Drawing {
 struct DrawingKind {
   std::string_view name, help;
   core::ImageRgba8 (*draw)(Drawing&);
+  std::string uses;  ///< which options mean something to it, besides the scene, its camera and the size
 };
 
 [[nodiscard]] const std::vector<DrawingKind>& drawingKinds();

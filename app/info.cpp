@@ -150,6 +150,13 @@ std::string makeReflectorTable(const LoadedScene& loaded) {
   return "\n" + formatTable(rows, usesColour(stdout)) + "\n" + reasons;
 }
 
+std::string describeBackend(renderer::Renderer& renderer) {
+  Json gl;
+  addGl(renderer, gl);
+  return fmt::format("  virtual vertices: --backend auto is {} on {}\n",
+                     gl["backend_auto"].get<std::string>(), gl["gl_renderer"].get<std::string>());
+}
+
 int run(const Options& options) {
   applyOutput(options.output);
   if (isBakedFile(options.source)) {
@@ -157,12 +164,15 @@ int run(const Options& options) {
     return 0;
   }
   const auto loaded = loadScene(options.source, options.scene);
+  renderer::Renderer renderer(loaded->scene, loaded->geometry, loaded->environment);
   if (!options.output.json.empty()) {
     Json document = makeDocument("info", nullptr);
+    addGl(renderer, document["environment"]);
     document.update(describeScene(*loaded));
     writeDocument(options.output.json, document);
   }
-  if (options.output.json != "-") printData(makeSummary(*loaded) + makeReflectorTable(*loaded));
+  if (options.output.json != "-")
+    printData(makeSummary(*loaded) + describeBackend(renderer) + makeReflectorTable(*loaded));
   return 0;
 }
 

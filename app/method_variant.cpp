@@ -55,6 +55,21 @@ FrameTimes summarise(const std::vector<renderer::FrameTimings>& frames,
   return times;
 }
 
+/// What stands behind a "+".
+void addEnding(MethodVariant& variant, const std::string& method, const std::string& ending) {
+  if (ending == "cpu" || ending == "gpu") {
+    if (!renderer::hasSolvers(variant.method) || !renderer::hasVertexShader(variant.solver))
+      throw UsageError("--methods: '" + method + "' has no vertex shader", "leave '+" + ending + "' out");
+    variant.backend = ending == "gpu" ? renderer::Backend::Gpu : renderer::Backend::Cpu;
+    variant.description += ", vertices on the " + ending;
+    return;
+  }
+  if (!renderer::hasMerges(variant.method))
+    throw UsageError("--methods: '" + method + "' has nothing to merge", "leave '+" + ending + "' out");
+  variant.merge = parseMerge("--methods", ending);
+  variant.description += fmt::format(", merged by {}", ending);
+}
+
 }  // namespace
 
 const std::vector<MethodVariant>& methodVariants() {
@@ -109,18 +124,22 @@ std::vector<MethodVariant> parseMethodList(const std::string& text) {
     for (const MethodVariant& variant : chosen)
       if (variant.name == word) throw UsageError("--methods: '" + word + "' is named twice");
     chosen.push_back(methodVariants()[std::size_t(at - names.begin())]);
-    if (plus == word.size()) continue;
-    if (!renderer::hasMerges(chosen.back().method))
-      throw UsageError("--methods: '" + word.substr(0, plus) + "' has nothing to merge",
-                       "leave '" + word.substr(plus) + "' out");
     chosen.back().name = word;
-    chosen.back().merge = parseMerge("--methods", word.substr(plus + 1));
-    chosen.back().description += fmt::format(", merged by {}", word.substr(plus + 1));
+    for (std::size_t begin = plus; begin < word.size();) {
+      const std::size_t end = std::min(word.find('+', begin + 1), word.size());
+      addEnding(chosen.back(), word.substr(0, plus), word.substr(begin + 1, end - begin - 1));
+      begin = end;
+    }
   }
   return chosen;
 }
 
-void checkMerge(const renderer::FrameOptions& options, const std::vector<MethodVariant>& variants) {
+void checkVariants(const renderer::FrameOptions& options, const std::vector<MethodVariant>& variants) {
+  if (options.backend != renderer::Backend::Auto &&
+      std::none_of(variants.begin(), variants.end(), [](const MethodVariant& variant) {
+        return renderer::hasSolvers(variant.method) && renderer::hasVertexShader(variant.solver);
+      }))
+    throw UsageError("--backend: none of the methods has virtual vertices on both", "leave it out");
   checkMerge(options, std::any_of(variants.begin(), variants.end(), [&](const MethodVariant& variant) {
                return variant.merge.value_or(options.merge) == renderer::Merge::Texture;
              }));
@@ -132,6 +151,9 @@ renderer::FrameOptions withMethod(renderer::FrameOptions options, const MethodVa
   options.boxCorrected = variant.boxCorrected;
   options.allDynamic = variant.allDynamic;
   if (variant.merge) options.merge = *variant.merge;
+  options.backend = variant.backend.value_or(options.backend);
+  if (!variant.backend && !renderer::hasVertexShader(variant.solver))
+    options.backend = renderer::Backend::Auto;
   return options;
 }
 

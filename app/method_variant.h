@@ -22,9 +22,10 @@ struct MethodVariant {
   renderer::Method method = renderer::Method::Auto;
   renderer::Solver solver = renderer::Solver::Auto;
   bool boxCorrected = true;
-  bool allDynamic = false;                 ///< of morphing: through all traces
-  bool byDefault = true;                   ///< false: only where it is named
-  std::optional<renderer::Merge> merge{};  ///< "virtual-refined+stencil"; none: as --merge says
+  bool allDynamic = false;                     ///< of morphing: through all traces
+  bool byDefault = true;                       ///< false: only where it is named
+  std::optional<renderer::Merge> merge{};      ///< "virtual-refined+stencil"; none: as --merge says
+  std::optional<renderer::Backend> backend{};  ///< "virtual-layered+gpu"; none: as --backend says
 };
 
 /// Slowest-looking last: none, environment-plain, environment, virtual-explosion, virtual-layered,
@@ -33,13 +34,14 @@ struct MethodVariant {
 /// Those that are drawn where none is named.
 [[nodiscard]] std::vector<MethodVariant> defaultVariants();
 
-/// --methods A,B,C; a name may end in "+" and a name of --merge. Throws UsageError for one that is not there
-/// or is there twice.
+/// --methods A,B,C; a name may end in "+" and a name of --merge, and in "+cpu" or "+gpu". Throws UsageError
+/// for one that is not there or is there twice.
 [[nodiscard]] std::vector<MethodVariant> parseMethodList(const std::string& text);
 [[nodiscard]] std::string listMethodNames();
 
-/// Throws UsageError for a --texture-scale that none of them uses.
-void checkMerge(const renderer::FrameOptions& options, const std::vector<MethodVariant>& variants);
+/// Throws UsageError for a --texture-scale that none of them uses, and for a --backend that one of them
+/// cannot have or none of them uses.
+void checkVariants(const renderer::FrameOptions& options, const std::vector<MethodVariant>& variants);
 
 [[nodiscard]] renderer::FrameOptions withMethod(renderer::FrameOptions options, const MethodVariant& variant);
 

@@ -44,6 +44,7 @@ Json makeFrameJson(const renderer::FrameOptions& options, const renderer::Frame&
   const renderer::FrameCounters& counters = frame.counters;
   return {{"method", std::string(renderer::methodName(options.method))},
           {"solver", std::string(renderer::solverName(options.solver))},
+          {"backend", renderer::backendName(options.backend)},
           {"box_corrected", options.boxCorrected},
           {"width", options.widthPx},
           {"height", options.heightPx},

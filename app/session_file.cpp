@@ -66,6 +66,8 @@ void readOptions(const SessionValue& value, viewer::Session& session) {
       frame.method = member.choice(renderer::Method::RayTrace, renderer::methodName);
     else if (name == "solver")
       frame.solver = member.choice(renderer::Solver::Subdivision, renderer::solverName);
+    else if (name == "backend")
+      frame.backend = member.choice(renderer::Backend::Gpu, renderer::backendName);
     else if (name == "box_corrected")
       frame.boxCorrected = member.flag();
     else if (name == "baked")
@@ -181,6 +183,7 @@ Json makeOptionsJson(const viewer::Session& session) {
   const renderer::FrameOptions& frame = session.frame;
   Json options{{"method", std::string(renderer::methodName(frame.method))},
                {"solver", std::string(renderer::solverName(frame.solver))},
+               {"backend", renderer::backendName(frame.backend)},
                {"box_corrected", frame.boxCorrected},
                {"width", frame.widthPx},
                {"height", frame.heightPx},

@@ -25,6 +25,9 @@ const std::vector<renderer::Solver> kSolvers{renderer::Solver::Auto,     rendere
                                              renderer::Solver::Analytic, renderer::Solver::Subdivision,
                                              renderer::Solver::Exact};
 
+const std::vector<renderer::Backend> kBackends{renderer::Backend::Auto, renderer::Backend::Cpu,
+                                               renderer::Backend::Gpu};
+
 const std::vector<renderer::Merge> kMerges{renderer::Merge::Ids,   renderer::Merge::Stencil,
                                            renderer::Merge::Erase, renderer::Merge::Depth,
                                            renderer::Merge::Clip,  renderer::Merge::Texture};
@@ -154,6 +157,16 @@ void declareMerge(Arguments& arguments, renderer::FrameOptions& frame) {
       [&](const std::string& text) { frame.textureScale = parseNumber("--texture-scale", text, 0.01, 1); });
 }
 
+void declareBackend(Arguments& arguments, renderer::FrameOptions& options) {
+  arguments.option(
+      "--backend", "NAME",
+      "Where the solvers explosion, layered and refined find virtual vertices: auto (default; gpu unless "
+      "OpenGL runs in software), cpu, gpu",
+      [&](const std::string& text) {
+        options.backend = choose("--backend", text, kBackends, renderer::backendName);
+      });
+}
+
 void declareBaked(Arguments& arguments, renderer::FrameOptions& options) {
   arguments.option("--baked", "FILE",
                    "Of the morphing method: file of 'catoptric bake'; default: bake at the eye",
@@ -176,6 +189,7 @@ void declareMethod(Arguments& arguments, renderer::FrameOptions& options, bool& 
       [&](const std::string& text) {
         options.solver = choose("--solver", text, kSolvers, renderer::solverName);
       });
+  declareBackend(arguments, options);
   declareBaked(arguments, options);
   arguments.flag("--plain-environment-map", "No parallax correction by the box of the room", plainMap);
 }
@@ -194,6 +208,14 @@ void checkMethod(const renderer::FrameOptions& options) {
   if (options.solver != renderer::Solver::Auto && !renderer::hasSolvers(options.method))
     throw UsageError(fmt::format("--solver: the method '{}' has none", renderer::methodName(options.method)),
                      "leave it out, or add --method virtual");
+  if (options.backend != renderer::Backend::Auto && !renderer::hasSolvers(options.method))
+    throw UsageError(fmt::format("--backend: the method '{}' has no virtual vertices",
+                                 renderer::methodName(options.method)),
+                     "leave it out, or add --method virtual");
+  if (options.backend != renderer::Backend::Auto && !renderer::hasVertexShader(options.solver))
+    throw UsageError(
+        fmt::format("--backend: the solver '{}' has no vertex shader", renderer::solverName(options.solver)),
+        "leave it out, or add --solver explosion, layered or refined");
   if (!options.bakedFile.empty() && options.method != renderer::Method::Morphing)
     throw UsageError(
         fmt::format("--baked: the method '{}' has no use for it", renderer::methodName(options.method)),

@@ -52,7 +52,7 @@ def compile_one(job):
         expand(path, 0, lines, sources)
     except FileNotFoundError as error:
         return [f"shaders/{path}: {error}"]
-    head = DIALECTS[dialect] + "#define CATOPTRIC_FN\n" + "".join(f"#define {s} 1\n" for s in switches)
+    head = DIALECTS[dialect] + "#define Real float\n#define Real2 vec2\n#define Real3 vec3\n#define CATOPTRIC_FN\n" + "".join(f"#define {s} 1\n" for s in switches)
     stage = {".vert": "vert", ".frag": "frag"}.get(os.path.splitext(path)[1])
     tail = "" if stage else "\nvoid main() {}\n"
     with tempfile.NamedTemporaryFile("w", suffix=".glsl", encoding="utf-8") as file:

@@ -40,6 +40,9 @@ std::string makeCommandText(const LoadRequest& scene, const scene::Camera& camer
   add("--method", std::string(renderer::methodName(options.method)));
   if (renderer::hasSolvers(options.method) && options.solver != standard.solver)
     add("--solver", std::string(renderer::solverName(options.solver)));
+  if (renderer::hasSolvers(options.method) && renderer::hasVertexShader(options.solver) &&
+      options.backend != standard.backend)
+    add("--backend", std::string(renderer::backendName(options.backend)));
   if (options.method == renderer::Method::Morphing && !options.bakedFile.empty())
     add("--baked", options.bakedFile);
   if (options.method == renderer::Method::Morphing && options.mappedBelowPixels != standard.mappedBelowPixels)

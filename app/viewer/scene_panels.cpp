@@ -15,8 +15,9 @@ namespace {
 constexpr float kMapEdge = 200, kMapsWidth = 3 * kMapEdge + 50;  // three maps, gaps, borders
 
 std::string describeShape(const scene::Reflector& reflector) {
-  const bool isFreeForm =
-      reflector.shape == scene::ReflectorShape::Extrusion || reflector.shape == scene::ReflectorShape::Mesh;
+  const bool isFreeForm = reflector.shape == scene::ReflectorShape::Extrusion ||
+                          reflector.shape == scene::ReflectorShape::Quadric ||
+                          reflector.shape == scene::ReflectorShape::Mesh;
   return (isFreeForm && reflector.isConvex ? "convex " : "") + std::string(scene::shapeName(reflector.shape));
 }
 

@@ -9,6 +9,7 @@
 //   SEEN     what is seen at this pixel, too
 //   OVERLAY  blended surfaces: only premultiplied colour
 //   ENVIRONMENT  a reflector of the last level: shows the environment
+//   PLACED   virtual vertices were placed by the vertex shader, no triangle was left out
 
 #include "lib/environment.glsl"
 #include "lib/refraction.glsl"
@@ -45,6 +46,10 @@ layout(location = 1) out uvec2 o_ids;
 #ifdef SEEN
 layout(location = 2) out vec4 o_position;
 #endif
+#endif
+
+#ifdef PLACED
+#include "raster/placed_triangle.glsl"
 #endif
 
 /// False where this fragment cannot be seen through its chain; `from` is where the last view ray starts.
@@ -92,6 +97,9 @@ void main() {
 #endif
   float path = length(v_drawPosition - u_drawEye);
   vec3 from;
+#ifdef PLACED
+  if (!isWorthDrawing(p.positionDx, p.positionDy)) discard;
+#endif
   if (!isSeenThroughChain(ivec2(gl_FragCoord.xy), path, from)) discard;
   if (!p.isFront && m_more.w < 0.5f) discard;
   p.toViewer = normalize(from - v_position);

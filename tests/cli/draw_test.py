@@ -28,7 +28,8 @@ class Draw(support.CommandTest):
 
     def test_structures_of_a_flat_mirror(self):
         for what in FLAT:
-            self.assertEqual(self.draw("checker-box", what, "--zexel-size", "64", "--zexel-hemisphere", "16")[:2], (64, 48))
+            zexels = ("--zexel-size", "64", "--zexel-hemisphere", "16") if what in ("zexels", "exposures") else ()
+            self.assertEqual(self.draw("checker-box", what, *zexels)[:2], (64, 48))
 
     def test_exposures_are_the_pixels_that_the_method_counts_as_uncovered(self):
         # 512 zexels on few pixels: a 3x3 splat reaches many zexels far, and must still show its zexel.
@@ -50,6 +51,10 @@ class Draw(support.CommandTest):
         self.refuse(1, "no flat mirror", "draw", "columns", "-o", "a.png", "--show", "zexels")
         self.refuse(2, "there is no 'nothing'", "draw", "columns", "-o", "a.png", "--show", "nothing")
         self.refuse(2, "what to draw is missing", "draw", "columns", "-o", "a.png")
+        for what, option, value in (("explosion-maps", "--samples", "4"), ("mapping", "--point", "0,0,0"), ("cell", "--object", "cube"),
+                                    ("look-up", "--from", "1,2,3"), ("cell", "--bounces", "2"), ("sampling-cell", "--width", "2"),
+                                    ("look-up", "--zexel-size", "64"), ("camera-rays", "--max-error", "2")):
+            self.refuse(2, (option[:7], f"--show {what} has no use for it"), "draw", "columns", "-o", "a.png", "--show", what, option, value)
         self.refuse(2, "no radiance", "draw", "columns", "-o", "a.exr", "--show", "cell")
         self.assertFalse(os.path.exists(self.path("a.png")))
 

@@ -62,6 +62,15 @@ class WrongUsage(support.CommandTest):
         self.refuse(2, ("nothing to merge", "+stencil"), "bench", "cylinder", "--methods", "raytrace+stencil")
         self.refuse(2, ("--texture-scale", "--merge texture"), "bench", "cylinder", "--texture-scale", "0.5")
 
+    def test_a_backend_that_is_not_there(self):
+        for command in (("render", "scene.gltf", "-o", "x.png"), ("view", "scene.gltf")):
+            self.refuse(2, ("--backend", "'environment'"), *command, "--method", "environment", "--backend", "gpu")
+            for solver in ("analytic", "subdivision", "exact"):
+                self.refuse(2, (f"'{solver}' has no vertex shader", "layered"), *command, "--solver", solver, "--backend", "gpu")
+            self.refuse(2, ("'gpus'", "did you mean 'gpu'?"), *command, "--backend", "gpus")
+        self.refuse(2, ("'virtual-exact' has no vertex shader", "+gpu"), "bench", "cylinder", "--methods", "virtual-exact+gpu")
+        self.refuse(2, ("--backend",), "bench", "cylinder", "--methods", "environment,raytrace", "--backend", "gpu")
+
     def test_values_that_are_no_good(self):
         for option, value in (("--size", "abc"), ("--size", "0x10"), ("--size", "-3x4"), ("--size", "10"),
                               ("--size", "99999x2"), ("--size", "16384x16384"), ("--size", "10x10x10"),

@@ -48,7 +48,7 @@ class Editing(WindowTest):
 
     def test_a_dragged_object_is_undone_and_saved(self):
         viewer = self.view("scene.gltf", "--size", "320x240", "--camera", "front", "--max-error", "1000",
-                           "--merge", "texture", "--texture-scale", "0.5")
+                           "--merge", "texture", "--texture-scale", "0.5", "--backend", "cpu")
         viewer.wait_for_window()
         viewer.wait_for_line(SETTLED)
         viewer.do("key", "p")
@@ -71,7 +71,8 @@ class Editing(WindowTest):
         session = json.loads(self.read(SESSION))
         self.assertEqual([edit["name"] for edit in session["moved"]], ["Board"])
         options = session["options"]
-        self.assertEqual((options["max_error_px"], options["merge"], options["texture_scale"]), (1000, "texture", 0.5))
+        self.assertEqual((options["max_error_px"], options["merge"], options["texture_scale"], options["backend"]),
+                         (1000, "texture", 0.5, "cpu"))
         os.mkdir(self.path("other"))
         viewer = window_support.Viewer(self.path("other"), self.display, "--session", "../" + SESSION)
         self.addCleanup(viewer.kill)

@@ -23,7 +23,8 @@ std::string libraryText(const std::string& name) {
 std::string readShader(const std::string& file) {
   std::ifstream in(std::string(CATOPTRIC_SOURCE_DIR "/tests/gl/shaders/") + file);
   if (!in) throw std::runtime_error("no test shader " + file);
-  std::string source = "#version 330 core\n#define CATOPTRIC_FN\n";
+  const std::string empty = assembleShader("raster/screen.vert", {});
+  std::string source = empty.substr(0, empty.find('\n', empty.find("#define CATOPTRIC_FN")) + 1);
   for (std::string line; std::getline(in, line);) {
     if (line.rfind("#include \"", 0) == 0)
       source += libraryText(line.substr(10, line.find('"', 10) - 10));

@@ -10,6 +10,7 @@
 
 #include "catoptric/core/file.h"
 #include "catoptric/core/image_io.h"
+#include "catoptric/geometry/sampled_surface.h"
 #include "catoptric/geometry/shapes.h"
 #include "catoptric/scene/built_in_scenes.h"
 #include "catoptric/scene/gltf_import.h"
@@ -113,6 +114,31 @@ TEST(Picture, flatInCurved) {
   subject.camera.fovYRadians = 0.5;
   expectWithin(subject, withTurnedNormals(subject.world, 0.005),
                {10, 0.12, "the ball's rim, where the whole sky is squeezed into one pixel"});
+}
+
+TEST(Picture, flatBehindCurvedShowsWhatLiesBehindIt) {
+  // A slightly curved mirror before a wall; a flat one opposite, above the eye, lets it show that wall.
+  TracedTestScene t;
+  t.camera.eye = {0, -0.1, 1.6};
+  t.camera.target = {0, 0.05, 0};
+  t.camera.fovYRadians = 0.6;
+  const geometry::Mesh mesh = geometry::makeHeightField(
+      24, 24, [](dvec2 at) { return 0.45 * at; },
+      [](dvec2 at) {
+        return geometry::HeightSample{-0.06 * glm::dot(at, at), -0.12 * at.x, -0.12 * at.y};
+      });
+  scene::MeshPrimitive curved;
+  curved.positions = mesh.positions, curved.normals = mesh.normals, curved.indices = mesh.indices;
+  t.add(curved, makeMirror(vec3(0.95f)), "curved");
+  t.add(makeQuad({2, 0.3f, 2.4f}, {-4, 0, 0}, {0, 2.4f, 0}), makeMirror(), "flat");
+  t.add(makeQuad({-3, -2, -0.7f}, {6, 0, 0}, {0, 7, 0}), reference::makeUnlit(vec3(0.8f, 0.2f, 0.1f)),
+        "wall");
+  t.add(makeQuad({-0.3f, 2.2f, -0.6f}, {0.6f, 0, 0}, {0, 0.6f, 0}),
+        reference::makeUnlit(vec3(0.1f, 0.8f, 0.2f)), "sign");
+  t.finish();
+  const Subject subject{"behind-curved", t.scene, t.world, t.camera, 2};
+  expectWithin(subject, withTurnedNormals(subject.world, 0.005),
+               {10, 0.12, "edges that fall to the other side of a pixel"});
 }
 
 TEST(Picture, fourSpheres) {

@@ -25,6 +25,8 @@ struct ZexelOptions {
   bool continuesSurfaces = true;  ///< exposures show what lies behind their edges, continued
   std::size_t maxBytes = std::size_t(512) << 20;  ///< of all reference images together
   std::string cacheFile{};                        ///< of reference images, read at the start; empty: none
+
+  bool operator==(const ZexelOptions&) const = default;
 };
 
 }  // namespace catoptric::depth_reflection_map

@@ -108,7 +108,7 @@ Context::Context(const ContextOptions& options) : impl_(std::make_unique<Impl>()
     return std::string(value ? value : "?");
   };
   impl_->description = fmt::format("{}, OpenGL {}", text(GL_RENDERER), text(GL_VERSION));
-  impl_->software = isSoftwareRenderer();
+  impl_->software = isSoftwareRenderer(text(GL_RENDERER));
   if (options.debug && GLAD_GL_KHR_debug) {
     glEnable(GL_DEBUG_OUTPUT);
     glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
@@ -117,6 +117,13 @@ Context::Context(const ContextOptions& options) : impl_(std::make_unique<Impl>()
   glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+}
+
+bool isSoftwareRenderer(std::string_view name) {
+  for (const std::string_view software : {"llvmpipe", "softpipe", "swrast", "SwiftShader",
+                                          "Software Rasterizer", "GDI Generic", "Basic Render Driver"})
+    if (name.find(software) != std::string_view::npos) return true;
+  return false;
 }
 
 Context::~Context() {
@@ -147,10 +154,9 @@ const std::string& Context::description() const {
   return impl_->description;
 }
 
-bool isSoftwareRenderer() {
+bool isSoftwareContext() {
   const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  const std::string renderer(name ? name : "");
-  return renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos;
+  return name && isSoftwareRenderer(name);
 }
 
 bool Context::isSoftware() const {

@@ -5,11 +5,14 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace catoptric::gl {
 
-/// Does the current context draw on the CPU (llvmpipe, softpipe)?
-[[nodiscard]] bool isSoftwareRenderer();
+/// Whether GL_RENDERER names a rasterizer that runs on the processor.
+[[nodiscard]] bool isSoftwareRenderer(std::string_view name);
+/// The same of the current context.
+[[nodiscard]] bool isSoftwareContext();
 
 struct ContextOptions {
   /// Debug context: any GL error or message of medium or high severity is remembered and thrown by check().

@@ -15,7 +15,8 @@ namespace catoptric::raster {
 
 class ReflectorDistance {
  public:
-  ReflectorDistance(const scene::WorldGeometry& geometry, const scene::Part& part, bool mayBeSeenFromBehind) {
+  /// `reflectsBehind`: no point counts as lying behind it.
+  ReflectorDistance(const scene::WorldGeometry& geometry, const scene::Part& part, bool reflectsBehind) {
     std::vector<vec3> surface, normals;
     for (std::uint32_t i = 0; i < part.indexCount; ++i) {
       surface.push_back(geometry.positions[geometry.indices[part.firstIndex + i]]);
@@ -33,7 +34,7 @@ class ReflectorDistance {
     turnsRound_ = glm::length(sum) < kTurned * float(normals.size());
     pickSamples(surface, normals);
     focalLength_ = float(findFocalLength(geometry, part));
-    hasBack_ = !mayBeSeenFromBehind;
+    hasBack_ = !reflectsBehind;
   }
 
   [[nodiscard]] float focalLength() const { return focalLength_; }

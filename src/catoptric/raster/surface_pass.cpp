@@ -10,7 +10,7 @@
 namespace catoptric::raster {
 
 void addConstantsDefine(std::vector<std::string>& defines) {
-  if (gl::isSoftwareRenderer()) defines.emplace_back("FLAT_CONSTANTS");
+  if (gl::isSoftwareContext()) defines.emplace_back("FLAT_CONSTANTS");
 }
 
 void bindSurfaceShading(gl::Program& program, const SceneBuffers& scene) {
@@ -53,6 +53,7 @@ void setView(gl::Program& program, const SceneBuffers& scene, const SurfaceView&
   program.set("u_clipPlanes", planes);
   if (view.parent) view.parent->bindAsParent(program);
   program.set("u_parentWord", view.chain ? view.chain->parentWord() : 0u);
+  if (view.bindVertexShader) view.bindVertexShader(program);
 }
 
 }  // namespace
@@ -68,7 +69,8 @@ gl::Program& SurfacePass::findProgram(unsigned features) {
     for (const auto& [feature, name] : names)
       if ((features & feature) != 0) defines.emplace_back(name);
     addConstantsDefine(defines);
-    program = std::make_unique<gl::Program>("raster/surface.vert", "raster/surface.frag", defines);
+    defines.insert(defines.end(), vertexDefines_.begin(), vertexDefines_.end());
+    program = std::make_unique<gl::Program>(vertexFile_, "raster/surface.frag", defines);
     program->bindBlock("Material", 0);
   }
   return *program;

@@ -3,8 +3,11 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "catoptric/gl/program.h"
 #include "catoptric/raster/chain.h"
@@ -42,10 +45,18 @@ struct SurfaceView {
   Masking masking;                ///< ids are tested only with `parent`
   ClipPlanes clip;                ///< with `parent` at most one
   std::uint32_t excludedReflector = core::kNoId;
+  /// What the pass's own vertex shader needs besides, for a program in use; empty: nothing.
+  std::function<void(gl::Program&)> bindVertexShader{};
 };
 
 class SurfacePass {
  public:
+  SurfacePass() = default;
+  /// With another vertex shader, which finds virtual vertices by itself (defines PLACED and `vertexDefines`).
+  SurfacePass(std::string vertexFile, std::vector<std::string> vertexDefines)
+      : vertexFile_(std::move(vertexFile)), vertexDefines_(std::move(vertexDefines)) {
+    vertexDefines_.emplace_back("PLACED");
+  }
   /// Opaque and masked parts.
   void draw(const SceneBuffers& scene, const VertexStreams& streams, std::span<const DrawRange> ranges,
             const SurfaceView& view, const Level& target);
@@ -70,6 +81,8 @@ class SurfacePass {
                   const SurfaceView& view, unsigned features);
   [[nodiscard]] gl::Program& findProgram(unsigned features);
 
+  std::string vertexFile_ = "raster/surface.vert";
+  std::vector<std::string> vertexDefines_;
   std::array<std::unique_ptr<gl::Program>, 4096> programs_;
   std::vector<DrawRange> mirrors_, others_;
 };

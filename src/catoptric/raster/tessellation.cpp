@@ -313,9 +313,9 @@ double findTessellationSize(const scene::Reflector& reflector, const dvec3& eye,
 TessellatedObjects tessellateForReflector(const scene::WorldGeometry& geometry, std::uint32_t reflector,
                                           const TessellationOptions& options) {
   const std::uint32_t own = geometry.reflectors[reflector].part;
-  const ReflectorDistance distance(
-      geometry, geometry.parts[own],
-      geometry.reflectors[reflector].doubleSided || geometry.reflectors[reflector].isRefractor());
+  const scene::Reflector& self = geometry.reflectors[reflector];
+  const ReflectorDistance distance(geometry, geometry.parts[own],
+                                   options.keepsBehind || self.doubleSided || self.isRefractor());
   const double pixelsPerUnit =
       options.reflectorDiameterPx / (2.0 * std::max(geometry.reflectors[reflector].radius, 1e-30));
   const double leastPx = distance.turnsRound() ? kLeastTurnedPx : 1.0;

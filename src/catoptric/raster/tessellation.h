@@ -47,6 +47,8 @@ struct TessellationOptions {
   /// No flat mirror stands between the reflector and the objects: triangles that turn their back to all of it
   /// are left out.
   bool isSeenDirectly = false;
+  /// Flat mirrors stand behind the reflector: what lies behind it may be seen in it all the same.
+  bool keepsBehind = false;
   std::size_t maxTriangles = 600000;      ///< budget; when hit, k is raised and one warning says so
   std::span<const std::uint8_t> parts{};  ///< by part: 0 leaves it out; empty: all parts
 };
@@ -58,7 +60,8 @@ struct TessellationOptions {
                                           const scene::CameraFrame& camera);
 
 /// `reflector` is an index into geometry.reflectors. Pieces that lie behind a single-sided mirror altogether
-/// are left out.
+/// are left out, unless another mirror may show them to it. (What that one shows is farther away than the
+/// thing itself, so that lengths of edges err on the fine side.)
 [[nodiscard]] TessellatedObjects tessellateForReflector(const scene::WorldGeometry& geometry,
                                                         std::uint32_t reflector,
                                                         const TessellationOptions& options = {});

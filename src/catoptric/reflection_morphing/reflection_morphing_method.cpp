@@ -98,10 +98,11 @@ ReflectionMorphingMethod::Objects& ReflectionMorphingMethod::getObjects(const ra
   if (!slot || slot->maxErrorPx != frame.maxErrorPx) {
     std::vector<std::uint8_t> wanted = isMoving_;
     for (std::uint8_t& part : wanted) part = (part != 0) == key.areMoving ? 1 : 0;
-    slot = std::make_unique<Objects>(
-        frame.scene.geometry(), key.reflector,
-        raster::TessellationOptions{
-            .maxErrorPx = frame.maxErrorPx, .reflectorDiameterPx = key.sizePx, .parts = wanted});
+    slot = std::make_unique<Objects>(frame.scene.geometry(), key.reflector,
+                                     raster::TessellationOptions{.maxErrorPx = frame.maxErrorPx,
+                                                                 .reflectorDiameterPx = key.sizePx,
+                                                                 .keepsBehind = !key.isLast,
+                                                                 .parts = wanted});
     std::erase_if(corners_, [&](const auto& entry) { return entry.first.second == key; });
   }
   return *slot;
@@ -136,7 +137,7 @@ void ReflectionMorphingMethod::drawObjects(raster::FrameContext& frame, const ra
                                        [&](std::uint32_t r) { return !reflectors[r].isPlanarMirror(); });
   const ObjectsKey key{*lastCurved,
                        raster::findTessellationSize(reflectors[*lastCurved], frame.camera.eye, frame.camera),
-                       areMoving};
+                       areMoving, *lastCurved == chain.last};
   Objects& objects = getObjects(frame, key);
   if (objects.objects.indices.empty()) return;
   const CornerPoints& corners = morph(frame, chain, key, objects);

@@ -48,6 +48,7 @@ class ReflectionMorphingMethod : public raster::ReflectionMethod {
     std::uint32_t reflector = 0;
     double sizePx = 0;
     bool areMoving = false;
+    bool isLast = true;  ///< of the chain: no mirror behind it shows it what lies behind it
     // NOLINTNEXTLINE(modernize-use-nullptr): of the comparison with 0 that the compiler makes.
     auto operator<=>(const ObjectsKey&) const = default;
   };

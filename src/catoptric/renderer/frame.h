@@ -29,20 +29,27 @@ namespace catoptric::renderer {
 enum class Method { Auto, None, Environment, Virtual, Morphing, Zexel, RayTrace };
 /// How the Virtual method finds reflection points on curved mirrors; Exact tests fragments instead.
 enum class Solver { Auto, Explosion, Layered, Refined, Exact, Analytic, Subdivision };
+/// Where the Virtual method finds virtual vertices: Auto takes a vertex shader where GL is hardware and the
+/// solver has one, else the processor.
+enum class Backend { Auto, Cpu, Gpu };
 using raster::Merge;
 
 /// Names as on the command line.
 [[nodiscard]] std::string_view methodName(Method method);
 [[nodiscard]] std::string_view solverName(Solver solver);
+[[nodiscard]] std::string_view backendName(Backend backend);
 [[nodiscard]] std::string_view mergeName(Merge merge);
 /// Whether FrameOptions::merge has a say in this method.
 [[nodiscard]] bool hasMerges(Method method);
 /// Whether FrameOptions::solver has a say in this method.
 [[nodiscard]] bool hasSolvers(Method method);
+/// Whether a vertex shader does what the solver does (Auto: where it takes Refined).
+[[nodiscard]] bool hasVertexShader(Solver solver);
 
 struct FrameOptions {
   Method method = Method::Auto;
   Solver solver = Solver::Auto;
+  Backend backend = Backend::Auto;
   int widthPx = 960, heightPx = 720;
   int bounces = 1;
   Merge merge = Merge::Ids;  ///< how pictures in mirrors are kept within them
@@ -121,7 +128,8 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Throws core::Error("gl.*") when there is no usable GL, with the remedy.
+  /// Throws core::Error("gl.*") when there is no usable GL, with the remedy, and
+  /// core::Error("renderer.backend") for Backend::Gpu with a solver that has no vertex shader.
   [[nodiscard]] Frame render(const scene::Camera& camera, const FrameOptions& options);
 
   /// The scene as a camera elsewhere sees it (1998, fig. 10 and 11), with what the last render() worked with
@@ -146,6 +154,8 @@ class Renderer {
 
   /// "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 3.3 core, Mesa 22.3.6"; makes the context.
   [[nodiscard]] std::string describeGl();
+  /// What Backend::Auto stands for here: Cpu where GL is software; makes the context.
+  [[nodiscard]] Backend chooseBackend();
   [[nodiscard]] std::string describeRayTracer();
 
  private:

@@ -48,6 +48,23 @@ std::string_view solverName(Solver solver) {
   return "?";
 }
 
+std::string_view backendName(Backend backend) {
+  switch (backend) {
+    case Backend::Auto:
+      return "auto";
+    case Backend::Cpu:
+      return "cpu";
+    case Backend::Gpu:
+      return "gpu";
+  }
+  return "?";
+}
+
+bool hasVertexShader(Solver solver) {
+  return solver == Solver::Auto || solver == Solver::Explosion || solver == Solver::Layered ||
+         solver == Solver::Refined;
+}
+
 bool hasMerges(Method method) {
   return method != Method::None && method != Method::Environment && method != Method::RayTrace;
 }

@@ -154,10 +154,12 @@ raster::ReflectionMethod* RasterFrame::pickMethod(const raster::Chain& chain, co
   if (options.method == Method::Zexel && zexel_.supports(chain)) return &zexel_;
   const bool isMorphing = options.method == Method::Morphing;
   if (isMorphing && chain.curved && isMapped(chain, options)) return &environment_;
+  const bool isAuto = options.solver == Solver::Auto;
   const bool needsExact =
-      chain.hasSecondCurved ||
-      (chain.curved && Renderer::chooseMethod(geometry_.reflectors[*chain.curved]).solver == Solver::Exact);
-  const bool wantsExact = options.solver == Solver::Exact || (options.solver == Solver::Auto && needsExact);
+      chain.curved && Renderer::chooseMethod(geometry_.reflectors[*chain.curved]).solver == Solver::Exact;
+  // A vertex has a reflection point in one curved mirror; what two of them show is found by the pixels' rays.
+  const bool wantsExact = options.solver == Solver::Exact || (isAuto && needsExact) ||
+                          (chain.hasSecondCurved && (isAuto || options.solver == Solver::Refined));
   if (!isMorphing && wantsExact && exact_.supports(chain)) return &exact_;
   raster::ReflectionMethod* curved = &virtual_;
   if (isMorphing) curved = &morphing_;
@@ -265,6 +267,16 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   frame.counters.reflectorsCulled = geometry_.reflectors.size() - visibleReflectors;
 }
 
+bool RasterFrame::findsVerticesOnGpu(const FrameOptions& options) const {
+  if (options.backend == Backend::Cpu) return false;
+  if (options.backend == Backend::Auto) return !context_.isSoftware() && hasVertexShader(options.solver);
+  if (!hasVertexShader(options.solver))
+    throw core::Error("renderer.backend",
+                      fmt::format("solver '{}' has no vertex shader", solverName(options.solver)), {},
+                      "use backend cpu, or solver explosion, layered or refined");
+  return true;
+}
+
 void RasterFrame::prepareMorphing(const dvec3& eye, const FrameOptions& options) {
   using namespace reflection_morphing;
   morphing_.setDynamic(options.allDynamic);
@@ -323,7 +335,7 @@ Frame RasterFrame::render(const scene::CameraFrame& camera, const FrameOptions& 
   Frame frame;
   const int samples = std::max(1, options.samples);
   prepareLevels(1, options);
-  virtual_.setSolver(virtualObjectSolver(options.solver));
+  virtual_.setSolver(virtualObjectSolver(options.solver), findsVerticesOnGpu(options));
   if (options.method == Method::Morphing) prepareMorphing(camera.eye, options);
   zexel_.setOptions(options.zexel);
   if (options.method == Method::Zexel) prepareZexels(options);

@@ -43,6 +43,8 @@ class RasterFrame {
                     const raster::Chain& chain, const raster::Level& parent, raster::Level& target);
   [[nodiscard]] bool isMapped(const raster::Chain& chain, const FrameOptions& options) const;
   [[nodiscard]] raster::ReflectionMethod* pickMethod(const raster::Chain& chain, const FrameOptions& options);
+  /// Whether vertex shaders find virtual vertices; throws where they are asked for and cannot.
+  [[nodiscard]] bool findsVerticesOnGpu(const FrameOptions& options) const;
   /// Opens the baked file, or makes ready to bake where the eye is.
   void prepareMorphing(const dvec3& eye, const FrameOptions& options);
   /// Opens the file of reference images.

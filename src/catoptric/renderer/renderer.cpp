@@ -96,6 +96,10 @@ std::string Renderer::describeGl() {
   return impl_->getContext().description();
 }
 
+Backend Renderer::chooseBackend() {
+  return impl_->getContext().isSoftware() ? Backend::Cpu : Backend::Gpu;
+}
+
 std::string Renderer::describeRayTracer() {
   return impl_->getTracer().describe();
 }

@@ -11,6 +11,7 @@
 #include "catoptric/core/log.h"
 #include "catoptric/geometry/extrusion.h"
 #include "catoptric/geometry/mesh_measures.h"
+#include "catoptric/geometry/quadric.h"
 #include "catoptric/geometry/vertex_weld.h"
 
 namespace catoptric::scene {
@@ -20,8 +21,8 @@ namespace {
 constexpr double kCurvedNormalTolerance = 1e-2;  // radians
 
 /// In the order of ReflectorShape.
-constexpr std::array<std::string_view, 6> kShapeNames{"plane", "sphere",    "cylinder",
-                                                      "cone",  "extrusion", "mesh"};
+constexpr std::array<std::string_view, 7> kShapeNames{"plane",     "sphere",  "cylinder", "cone",
+                                                      "extrusion", "quadric", "mesh"};
 
 /// Disjoint sets of vertices.
 class UnionFind {
@@ -152,6 +153,9 @@ std::optional<Candidate> fitShape(ReflectorShape shape, const geometry::MeshView
     case ReflectorShape::Extrusion:
       if (const auto fit = geometry::fitExtrusion(mesh)) return Candidate{shape, fit->deviation, {}, false};
       break;
+    case ReflectorShape::Quadric:
+      if (const auto fit = geometry::fitQuadric(mesh)) return Candidate{shape, fit->deviation, {}, false};
+      break;
     case ReflectorShape::Mesh:
       break;
   }
@@ -230,8 +234,9 @@ void measureReflector(Reflector& reflector, const geometry::MeshView& mesh,
     core::logWarningOnce(
         fmt::format("\"{}\": no {} fits, declared shape ignored", reflector.name, *declaredShape));
   }
-  for (const ReflectorShape shape : {ReflectorShape::Plane, ReflectorShape::Sphere, ReflectorShape::Cylinder,
-                                     ReflectorShape::Cone, ReflectorShape::Extrusion}) {
+  for (const ReflectorShape shape :
+       {ReflectorShape::Plane, ReflectorShape::Sphere, ReflectorShape::Cylinder, ReflectorShape::Cone,
+        ReflectorShape::Extrusion, ReflectorShape::Quadric}) {
     if (shape == ReflectorShape::Plane && hasNormalMap) continue;
     const double angleLimit =
         shape == ReflectorShape::Plane ? options.normalTolerance : kCurvedNormalTolerance;
@@ -239,7 +244,8 @@ void measureReflector(Reflector& reflector, const geometry::MeshView& mesh,
     if (!fit || fit->deviation.distance > distanceLimit || fit->deviation.angleRadians > angleLimit) continue;
     accept(*fit);
     // The outside of a recognised shape is convex, whatever rounding does to the slivers at a sphere's poles.
-    const bool isRound = shape != ReflectorShape::Plane && shape != ReflectorShape::Extrusion;
+    const bool isRound =
+        shape == ReflectorShape::Sphere || shape == ReflectorShape::Cylinder || shape == ReflectorShape::Cone;
     if (isRound && !fit->isInside && frontsFollowNormals(mesh)) reflector.isConvex = true;
     return;
   }

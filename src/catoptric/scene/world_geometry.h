@@ -17,7 +17,7 @@
 namespace catoptric::scene {
 
 /// How a reflector is treated. `Plane` is a planar mirror; everything else goes by its mesh.
-enum class ReflectorShape : std::uint8_t { Plane, Sphere, Cylinder, Cone, Extrusion, Mesh };
+enum class ReflectorShape : std::uint8_t { Plane, Sphere, Cylinder, Cone, Extrusion, Quadric, Mesh };
 /// The word for it in extras.catoptric.shape, in `info` and in the viewer: "plane", "sphere", ...
 [[nodiscard]] std::string_view shapeName(ReflectorShape shape);
 

@@ -12,8 +12,10 @@
 #include "catoptric/virtual_object/analytic_finder.h"
 
 #include "catoptric/geometry/extrusion.h"
+#include "catoptric/geometry/quadric.h"
 #include "catoptric/geometry/shape_recognition.h"
 #include "catoptric/virtual_object/extruded_reflector.h"
+#include "catoptric/virtual_object/implicit_reflector.h"
 #include "catoptric/virtual_object/special_reflector.h"
 
 namespace catoptric::virtual_object {
@@ -22,34 +24,63 @@ namespace {
 constexpr double kSlack = 1 + 1e-6;  // of the bounding sphere's radius
 constexpr double kBeyond = 1.45;     // of it: how far outside a concave mirror a point still belongs to it
 
+/// Step 3. `mayBeAnywhere`: the outside of a shape that has one reflection at most.
+struct Chooser {
+  dvec3 centre;
+  double radius;
+
+  template <class Reflections>
+  [[nodiscard]] std::optional<FoundPoint> choose(const Reflections& reflections, bool mayBeAnywhere) const {
+    std::optional<FoundPoint> best;
+    double bestDistance = 0;
+    for (const Reflection& r : reflections) {
+      const double distance = glm::distance(r.position, centre);
+      if (best && distance >= bestDistance) continue;
+      if (!mayBeAnywhere && distance > kBeyond * radius) continue;
+      best = FoundPoint{};
+      best->position = r.position;
+      best->normal = r.normal;
+      best->isPastBoundary = distance > radius;
+      bestDistance = distance;
+    }
+    return best;
+  }
+};
+
 class SpecialFinder : public PointFinder {
  public:
   SpecialFinder(const SpecialReflector& shape, const scene::Reflector& reflector)
-      : shape_(shape), centre_(reflector.centre), radius_(reflector.radius * kSlack) {}
+      : shape_(shape), chooser_{reflector.centre, reflector.radius * kSlack} {}
 
   void setEye(const EyeView& view) override { eye_ = view.eye; }
   [[nodiscard]] bool knowsHiddenPoints() const override { return !shape_.isInside; }
 
   [[nodiscard]] std::optional<FoundPoint> find(const dvec3& scenePoint) const override {
-    std::optional<FoundPoint> best;
-    double bestDistance = 0;
-    for (const Reflection& r : findReflections(shape_, eye_, scenePoint)) {
-      const double distance = glm::distance(r.position, centre_);
-      if (best && distance >= bestDistance) continue;
-      if (shape_.isInside && distance > kBeyond * radius_) continue;
-      best = FoundPoint{};
-      best->position = r.position;
-      best->normal = r.normal;
-      best->isPastBoundary = distance > radius_;
-      bestDistance = distance;
-    }
-    return best;
+    return chooser_.choose(findReflections(shape_, eye_, scenePoint), !shape_.isInside);
   }
 
  private:
   SpecialReflector shape_;
-  dvec3 eye_{0}, centre_;
-  double radius_;
+  Chooser chooser_;
+  dvec3 eye_{0};
+};
+
+class QuadricFinder : public PointFinder {
+ public:
+  QuadricFinder(const geometry::Quadric& quadric, std::span<const vec3> points,
+                const scene::Reflector& reflector)
+      : reflector_(quadric, points, reflector.radius),
+        chooser_{reflector.centre, reflector.radius * kSlack} {}
+  void setEye(const EyeView& view) override { eye_ = view.eye; }
+  [[nodiscard]] bool knowsHiddenPoints() const override { return false; }
+  [[nodiscard]] std::optional<FoundPoint> find(const dvec3& scenePoint) const override {
+    return chooser_.choose(reflector_.findReflections(eye_, scenePoint), false);
+  }
+
+ private:
+  ImplicitReflector reflector_;
+  Chooser chooser_;
+  dvec3 eye_{0};
 };
 
 class ExtrudedFinder : public PointFinder {
@@ -105,6 +136,7 @@ std::string findAnalyticObstacle(const scene::Reflector& reflector, bool flipped
     case scene::ReflectorShape::Sphere:
     case scene::ReflectorShape::Cylinder:
     case scene::ReflectorShape::Cone:
+    case scene::ReflectorShape::Quadric:
       return {};
     case scene::ReflectorShape::Extrusion:
       if (reflector.isConvex && !flipped) return {};
@@ -112,7 +144,7 @@ std::string findAnalyticObstacle(const scene::Reflector& reflector, bool flipped
     case scene::ReflectorShape::Mesh:
       break;
   }
-  return "no sphere, cylinder, cone or extrusion fits its vertices";
+  return "no sphere, cylinder, cone, extrusion or quadric fits its vertices";
 }
 
 std::unique_ptr<PointFinder> makeAnalyticFinder(const scene::WorldGeometry& world, std::uint32_t reflector,
@@ -123,6 +155,12 @@ std::unique_ptr<PointFinder> makeAnalyticFinder(const scene::WorldGeometry& worl
   if (mirror.shape == scene::ReflectorShape::Extrusion) {
     const auto profile = geometry::fitExtrusion(mesh.view());
     return profile ? std::make_unique<ExtrudedFinder>(*profile, skirt) : nullptr;
+  }
+  if (mirror.shape == scene::ReflectorShape::Quadric) {
+    const auto fit = geometry::fitQuadric(mesh.view());
+    if (!fit) return nullptr;
+    return std::make_unique<QuadricFinder>(flipped ? fit->quadric.flipped() : fit->quadric, mesh.positions,
+                                           mirror);
   }
   auto special = fitSpecial(mirror.shape, mesh.view());
   if (!special) return nullptr;

@@ -157,24 +157,10 @@ void completeCircle(MapScratch& scratch, ExplosionMap& map) {
 /// The point of an extension polygon's base edge on the radius through `coords`.
 SurfacePoint findOnOuterEdge(const ReflectorMesh& mesh, const ExplosionMap& map, std::uint32_t triangle,
                              const dvec2& coords) {
-  const dvec2 c = map.extensionCentre, direction = coords - c;
-  double bestDistance = 1e300, bestT = 0.5;
-  int bestEdge = 0;
-  for (int k = 0; k < 3; ++k) {
-    const dvec2 a = map.coords[mesh.corners()[3 * triangle + k]];
-    const dvec2 b = map.coords[mesh.corners()[3 * triangle + (k + 1) % 3]];
-    const dvec2 edge = b - a;
-    const double denominator = direction.x * edge.y - direction.y * edge.x;
-    if (std::abs(denominator) < 1e-15) continue;
-    const double along = ((a.y - c.y) * direction.x - (a.x - c.x) * direction.y) / -denominator;
-    const double t = std::clamp(along, 0.0, 1.0);
-    const dvec2 away = a + t * edge - coords;
-    const double distance = glm::dot(away, away);
-    if (distance < bestDistance) bestDistance = distance, bestT = t, bestEdge = k;
-  }
-  if (bestEdge == 0) return {triangle, bestT, 0};
-  if (bestEdge == 1) return {triangle, 1.0 - bestT, bestT};
-  return {triangle, 0, 1.0 - bestT};
+  const auto v = cornersOf(mesh, triangle);
+  const dvec2 uv = formulas::uvOnOutline(map.coords[v[0]], map.coords[v[1]], map.coords[v[2]],
+                                         map.extensionCentre, coords);
+  return {triangle, uv.x, uv.y};
 }
 
 }  // namespace
@@ -280,10 +266,8 @@ void fillHiddenMap(const ReflectorMesh& mesh, const dvec3& eye, MapScratch& scra
 }
 
 SurfacePoint clampToTriangle(std::uint32_t triangle, double u, double v) {
-  u = std::max(u, 0.0), v = std::max(v, 0.0);
-  const double sum = u + v;
-  if (sum > 1.0) u /= sum, v /= sum;
-  return {triangle, u, v};
+  const dvec2 inside = formulas::clampUv({u, v});
+  return {triangle, inside.x, inside.y};
 }
 
 MapAnswer lookUpMap(const ReflectorMesh& mesh, const ExplosionMap& map, const dvec2& mapCoords) {
@@ -294,9 +278,8 @@ MapAnswer lookUpMap(const ReflectorMesh& mesh, const ExplosionMap& map, const dv
   const std::uint32_t triangle = id / 2;
   if (id & kExtensionBit) return {findOnOuterEdge(mesh, map, triangle, mapCoords), true};
   const UvFromCoords& f = map.uvFromCoords[triangle];
-  const double u = f.u0 + f.ux * mapCoords.x + f.uy * mapCoords.y;
-  const double v = f.v0 + f.vx * mapCoords.x + f.vy * mapCoords.y;
-  return {{triangle, u, v}, mesh.triangles()[triangle].isSkirt()};
+  const dvec2 uv = formulas::uvFromMapCoords({f.u0, f.ux, f.uy}, {f.v0, f.vx, f.vy}, mapCoords);
+  return {{triangle, uv.x, uv.y}, mesh.triangles()[triangle].isSkirt()};
 }
 
 void fillSeedMap(const ReflectorMesh& mesh, const ExplosionMap& nearMap, const ExplosionMap& farMap,

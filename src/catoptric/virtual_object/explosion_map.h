@@ -12,6 +12,7 @@
 #include "catoptric/core/image.h"
 #include "catoptric/core/math.h"
 #include "catoptric/core/seen.h"
+#include "catoptric/virtual_object/formulas.h"
 #include "catoptric/virtual_object/reflection_point.h"
 #include "catoptric/virtual_object/reflector_mesh.h"
 
@@ -31,9 +32,7 @@ struct MapFrame {
 /// MapCoords with Blythe's factor: a unit direction (world) to the disc of radius 1. (The 1998 text misprints
 /// the factor.) Pixels are (coords + 1) / 2 * resolution.
 [[nodiscard]] inline dvec2 computeMapCoords(const MapFrame& frame, const dvec3& unitDirection) {
-  const double z = glm::dot(frame.z, unitDirection);
-  const double scale = 1.0 / std::sqrt(std::max(2.0 * (z + 1.0), 1e-12));
-  return {glm::dot(frame.x, unitDirection) * scale, glm::dot(frame.y, unitDirection) * scale};
+  return formulas::mapCoordsOf(frame.x, frame.y, frame.z, unitDirection);
 }
 
 /// (u, v) in a reflector triangle as a linear function of map coordinates: the paper's barycentrics, negative
@@ -55,9 +54,7 @@ struct ExplosionMap {
   /// Pixel of map coordinates, clamped to the image.
   [[nodiscard]] std::uint32_t idAt(const dvec2& mapCoords) const {
     const int n = ids.width();
-    const int x = std::clamp(int((mapCoords.x + 1.0) * 0.5 * n), 0, n - 1);
-    const int y = std::clamp(int((mapCoords.y + 1.0) * 0.5 * n), 0, n - 1);
-    return ids.at(x, y);
+    return ids.at(formulas::mapPixelOf(mapCoords.x, n), formulas::mapPixelOf(mapCoords.y, n));
   }
 };
 
@@ -86,9 +83,7 @@ struct SeedMap {
 
   [[nodiscard]] const SeedPixel& at(const dvec2& mapCoords) const {
     const int n = pixels.width();
-    const int x = std::clamp(int((mapCoords.x + 1.0) * 0.5 * n), 0, n - 1);
-    const int y = std::clamp(int((mapCoords.y + 1.0) * 0.5 * n), 0, n - 1);
-    return pixels.at(x, y);
+    return pixels.at(formulas::mapPixelOf(mapCoords.x, n), formulas::mapPixelOf(mapCoords.y, n));
   }
 };
 

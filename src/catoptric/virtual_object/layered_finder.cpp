@@ -36,9 +36,9 @@ std::optional<FoundPoint> LayeredFinder::find(const dvec3& scenePoint) const {
   const dvec3 fromCentre = scenePoint - layers_[0].centre;
   const double distance = glm::length(fromCentre);
   if (!(distance > 0)) return std::nullopt;
-  const dvec2 coords = computeMapCoords(layers_[0].frame, fromCentre / distance);
+  const dvec2 coords = computeMapCoords(layers_[0].frame, fromCentre * (1.0 / distance));
   const double last = double(layers_.size() - 1);
-  const double layer = std::clamp((1.0 / distance - inverseNear_) * layersPerInverse_, 0.0, last);
+  const double layer = formulas::mapLayerOf(distance, inverseNear_, layersPerInverse_, last);
   const std::size_t lower = std::min(std::size_t(layer), layers_.size() - 2);
   const double share = layer - double(lower);
   // 3

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "catoptric/virtual_object/formulas.h"
 #include "catoptric/virtual_object/virtual_object_solver.h"
 
 namespace catoptric::virtual_object {
@@ -17,10 +18,10 @@ constexpr double kOnSurface = 1e-7;  // of the mesh's radius: a point this near 
 
 void VirtualObjectSolver::useFinder(std::unique_ptr<PointFinder> finder) {
   finder_ = std::move(finder);
-  if (finder_ && canReflect_) finder_->setEye(makeEyeView());
+  if (finder_ && canReflect_) finder_->setEye(eyeView());
 }
 
-EyeView VirtualObjectSolver::makeEyeView() const {
+EyeView VirtualObjectSolver::eyeView() const {
   return {eye_, nearMap_.radius, farMap_.radius, &rays_};
 }
 
@@ -33,14 +34,12 @@ VirtualVertex VirtualObjectSolver::solveFound(const dvec3& scenePoint) const {
   const auto found = finder_->find(scenePoint);
   if (found && found->isHidden) return mirrorHidden(found->at, scenePoint);
   if (found) {
-    const dvec3 toMirror = found->position - eye_;
-    const double distanceEye = glm::length(toMirror), distance = glm::distance(found->position, scenePoint);
+    const dvec3 onward = scenePoint - found->position;
     const bool isInFront =
-        glm::dot(found->normal, scenePoint - found->position) > 0 || distance <= kOnSurface * mesh_->radius();
+        glm::dot(found->normal, onward) > 0 || glm::length(onward) <= kOnSurface * mesh_->radius();
     if (isInFront) {
       const VertexKind kind = found->isPastBoundary ? VertexKind::DoublyVirtual : VertexKind::Reflected;
-      return {eye_ + toMirror * ((distanceEye + distance) / distanceEye), found->position, found->at, 1,
-              kind};
+      return {formulas::placeBehind(eye_, found->position, scenePoint), found->position, found->at, 1, kind};
     }
   }
   // 3

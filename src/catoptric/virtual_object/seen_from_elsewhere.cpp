@@ -20,6 +20,14 @@ const vec3 kRealColor(0.25f, 0.3f, 0.35f), kVirtualColor(0.9f, 0.45f, 0.1f), kMe
 
 }  // namespace
 
+void VirtualObjectMethod::completeOnCpu(const scene::WorldGeometry& world, std::uint32_t reflector,
+                                        Prepared& p) const {
+  if (p.isFoundOnCpu) return;
+  const Solver solver = equipSolver(world, reflector, p);
+  p.solver->compute(solver, p.objects.positions, p.virtualPositions, p.kinds, p.reflectionPoints);
+  p.isFoundOnCpu = true;
+}
+
 void VirtualObjectMethod::drawFromElsewhere(raster::FrameContext& frame, std::uint32_t reflector,
                                             const raster::SurfaceView& elsewhere, raster::Level& target) {
   const auto last = last_.find(reflector);
@@ -27,6 +35,7 @@ void VirtualObjectMethod::drawFromElsewhere(raster::FrameContext& frame, std::ui
   Prepared& p = *last->second;
   // 1
   const scene::WorldGeometry& world = frame.scene.geometry();
+  completeOnCpu(world, reflector, p);
   raster::markVirtualTriangles(p.objects, p.solver->eye(), p.virtualPositions, p.kinds, p.reflectionPoints,
                                triangles_);
   std::vector<std::uint8_t> isWanted(world.parts.size());
@@ -45,6 +54,7 @@ void VirtualObjectMethod::collectMarks(const scene::WorldGeometry& world, std::u
                                        const raster::MarkOptions& options, raster::Marks& marks) const {
   const auto last = last_.find(reflector);
   if (last == last_.end()) return;
+  completeOnCpu(world, reflector, *last->second);
   const Prepared& p = *last->second;
   if (options.tessellation) addTessellation(world, p, marks);
   if (options.cells) addCells(p, 2.0 * world.bounds.radius(), marks);

@@ -38,13 +38,15 @@ VirtualObjectMethod::Prepared& VirtualObjectMethod::prepareReflector(const raste
     flipped = facing < 0;
   }
   const double size = raster::findTessellationSize(reflector, drawEye, frame.camera);
-  const bool isSeenDirectly = chain.drawFromWorld == dmat4(1.0) && solver_ != Solver::Explosion;
-  std::unique_ptr<Prepared>& slot = prepared_[{*chain.curved, flipped, isSeenDirectly, size}];
+  const bool isMirrored = chain.drawFromWorld != dmat4(1.0);
+  const bool isSeenDirectly = !isMirrored && solver_ != Solver::Explosion;
+  std::unique_ptr<Prepared>& slot = prepared_[{*chain.curved, flipped, isMirrored, isSeenDirectly, size}];
   if (!slot || slot->maxErrorPx != frame.maxErrorPx)
-    slot = std::make_unique<Prepared>(
-        world, *chain.curved, flipped,
-        raster::TessellationOptions{
-            .maxErrorPx = frame.maxErrorPx, .reflectorDiameterPx = size, .isSeenDirectly = isSeenDirectly});
+    slot = std::make_unique<Prepared>(world, *chain.curved, flipped,
+                                      raster::TessellationOptions{.maxErrorPx = frame.maxErrorPx,
+                                                                  .reflectorDiameterPx = size,
+                                                                  .isSeenDirectly = isSeenDirectly,
+                                                                  .keepsBehind = isMirrored});
   return *slot;
 }
 
@@ -59,16 +61,20 @@ Solver VirtualObjectMethod::equipSolver(const scene::WorldGeometry& world, std::
   return prepared.solver->hasFinder() ? solver_ : Solver::Refined;
 }
 
-void VirtualObjectMethod::computeVirtualVertices(raster::FrameContext& frame, const raster::Chain& chain,
-                                                 const dvec3& drawEye, Prepared& prepared) const {
-  const auto start = std::chrono::steady_clock::now();
+void VirtualObjectMethod::prepareSolver(const scene::WorldGeometry& world, const dvec3& drawEye,
+                                        Prepared& prepared) {
   if (!prepared.solver) {
-    const core::Box& bounds = frame.scene.geometry().bounds;
+    const core::Box& bounds = world.bounds;
     const double farRadius = glm::length(bounds.centre() - prepared.mesh.centre()) + bounds.radius();
     prepared.solver = std::make_unique<VirtualObjectSolver>(prepared.mesh, drawEye, farRadius);
   } else if (prepared.solver->eye() != drawEye) {
     prepared.solver->setEye(drawEye);
   }
+}
+
+void VirtualObjectMethod::computeVirtualVertices(raster::FrameContext& frame, const raster::Chain& chain,
+                                                 Prepared& prepared,
+                                                 std::span<const std::uint8_t> wanted) const {
   std::span<const vec3> points = prepared.objects.positions;
   if (chain.drawFromWorld != dmat4(1.0)) {
     prepared.scenePoints.resize(points.size());
@@ -81,13 +87,16 @@ void VirtualObjectMethod::computeVirtualVertices(raster::FrameContext& frame, co
   if (solver != Solver::Explosion && prepared.solver->canReflect())  // the method as published has no culling
     findReflectedRuns(prepared.runs, prepared.solver->reflectedCone(), chain.drawFromWorld,
                       prepared.mayReflect);
+  if (!wanted.empty()) {
+    prepared.mayReflect.resize(wanted.size(), 1);
+    for (std::size_t i = 0; i < wanted.size(); ++i) prepared.mayReflect[i] &= wanted[i];
+  }
   prepared.solver->compute(solver, points, prepared.virtualPositions, prepared.kinds,
                            prepared.reflectionPoints, prepared.mayReflect);
   const std::size_t culled = prepared.runs.countLeftOut(prepared.mayReflect);
-  const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
   frame.counters.virtualVertices += points.size() - culled;
-  frame.counters.culledVertices += culled;
-  frame.counters.virtualVerticesMs += spent.count();
+  if (wanted.empty()) frame.counters.culledVertices += culled;
+  prepared.isFoundOnCpu = wanted.empty();
 }
 
 void VirtualObjectMethod::drawObjects(raster::FrameContext& frame, const raster::Chain& chain,
@@ -96,8 +105,15 @@ void VirtualObjectMethod::drawObjects(raster::FrameContext& frame, const raster:
   const dvec3 drawEye = dvec3(glm::inverse(chain.screenFromDraw) * dvec4(frame.camera.eye, 1.0));
   Prepared& p = prepareReflector(frame, chain, drawEye);
   if (p.objects.indices.empty()) return;
-  computeVirtualVertices(frame, chain, drawEye, p);
+  const auto start = std::chrono::steady_clock::now();
+  prepareSolver(frame.scene.geometry(), drawEye, p);
   if (!p.solver->canReflect()) return;
+  const bool onGpu = usesGpu(p);
+  if (!onGpu) {
+    computeVirtualVertices(frame, chain, p);
+    const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+    frame.counters.virtualVerticesMs += spent.count();
+  }
   if (chain.level == 1) last_[chain.last] = &p;
 
   // 2
@@ -112,6 +128,10 @@ void VirtualObjectMethod::drawObjects(raster::FrameContext& frame, const raster:
   const auto& reflectors = frame.scene.geometry().reflectors;
   if (chain.last != *chain.curved)
     raster::clipAtLastMirror(reflectors[chain.last], chain.last, reflectors[*chain.curved].centre, view);
+  if (onGpu) {
+    drawOnGpu(frame, chain, view, p, target);
+    return;
+  }
   if (usesNumbers(chain, frame.scene.geometry())) {
     drawNumbered(frame, chain, view, p, target);
     return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws virtual objects: for a chain of mirrors with one curved link, every vertex of the tessellated scene
 // is moved to its virtual vertex, and the result is rasterised into the mirror's pixels (1998, figures 1 and
-// 3).
+// 3). Virtual vertices are found by the processor, or by a vertex shader (draw_on_gpu.cpp).
 #pragma once
 
 #include <map>
@@ -12,6 +12,8 @@
 #include "catoptric/raster/reflection_method.h"
 #include "catoptric/raster/tessellation.h"
 #include "catoptric/raster/virtual_object_pass.h"
+#include "catoptric/virtual_object/layered_finder.h"
+#include "catoptric/virtual_object/mirror_textures.h"
 #include "catoptric/virtual_object/numbered_triangles.h"
 #include "catoptric/virtual_object/reflector_mesh.h"
 #include "catoptric/virtual_object/virtual_object_solver.h"
@@ -26,7 +28,11 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   [[nodiscard]] bool supports(const raster::Chain& chain) const override {
     return chain.curved.has_value() && !chain.hasSecondCurved && !chain.hasRefractor();
   }
-  void setSolver(Solver solver) { solver_ = solver; }
+  /// `onGpu`: where the solver has a vertex shader and the mirror fits into textures.
+  void setSolver(Solver solver, bool onGpu = false) {
+    solver_ = solver;
+    onGpu_ = onGpu;
+  }
   void prepare(raster::FrameContext&) override { last_.clear(); }
   void geometryChanged() override {
     last_.clear();
@@ -42,6 +48,17 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
                     const raster::MarkOptions& options, raster::Marks& marks) const override;
 
  private:
+  /// What the GPU backend keeps for one curved reflector.
+  struct OnGpu {
+    explicit OnGpu(const raster::TessellatedObjects& objects) : streams(objects) {}
+    raster::VertexStreams streams;
+    std::unique_ptr<LayeredFinder> layers;  ///< Layered, Refined: the maps
+    std::unique_ptr<MirrorTextures> textures;
+    Solver texturesOf = Solver::Refined;
+    std::optional<dvec3> eye;               ///< of the textures
+    std::vector<std::uint8_t> blendedRuns;  ///< by run: holds a vertex of a blended part
+    bool hasBlended = false;
+  };
   /// Everything kept for one curved reflector from frame to frame.
   struct Prepared {
     Prepared(const scene::WorldGeometry& world, std::uint32_t reflector, bool flipped,
@@ -60,6 +77,8 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     std::vector<vec3> virtualPositions, reflectionPoints;
     std::vector<VertexKind> kinds;
     std::vector<std::uint8_t> mayReflect;  ///< by run
+    std::unique_ptr<OnGpu> gpu;            ///< made when first needed
+    bool isFoundOnCpu = false;             ///< the arrays above are those of the solver's eye
   };
   static void addTessellation(const scene::WorldGeometry& world, const Prepared& p, raster::Marks& marks);
   static void addCells(const Prepared& p, double rayLength, raster::Marks& marks);
@@ -68,8 +87,11 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
                    raster::Level& target);
   Prepared& prepareReflector(const raster::FrameContext& frame, const raster::Chain& chain,
                              const dvec3& drawEye);
-  void computeVirtualVertices(raster::FrameContext& frame, const raster::Chain& chain, const dvec3& drawEye,
-                              Prepared& prepared) const;
+  /// Makes the solver, or gives it the eye.
+  static void prepareSolver(const scene::WorldGeometry& world, const dvec3& drawEye, Prepared& prepared);
+  /// Of all vertices that may be reflected; `wanted`: only of these runs (empty: of all).
+  void computeVirtualVertices(raster::FrameContext& frame, const raster::Chain& chain, Prepared& prepared,
+                              std::span<const std::uint8_t> wanted = {}) const;
 
   /// Gives the solver what the wanted one asks; Refined where that cannot serve the mirror.
   [[nodiscard]] Solver equipSolver(const scene::WorldGeometry& world, std::uint32_t reflector,
@@ -80,10 +102,21 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   [[nodiscard]] bool usesNumbers(const raster::Chain& chain, const scene::WorldGeometry& world) const {
     return solver_ == Solver::Refined && chain.last == *chain.curved && SceneTriangles::fits(world);
   }
+  /// What a vertex shader has found, once more where the processor can read it.
+  void completeOnCpu(const scene::WorldGeometry& world, std::uint32_t reflector, Prepared& prepared) const;
+  [[nodiscard]] bool usesGpu(const Prepared& prepared) const;
+  void prepareTextures(const raster::FrameContext& frame, Prepared& prepared) const;
+  void drawOnGpu(raster::FrameContext& frame, const raster::Chain& chain, const raster::SurfaceView& view,
+                 Prepared& prepared, raster::Level& target);
+  /// What of the scene is blended is sorted by its virtual vertices, which the processor finds.
+  void drawBlended(raster::FrameContext& frame, const raster::Chain& chain, const raster::SurfaceView& view,
+                   Prepared& prepared, raster::Level& target);
   void drawNumbered(raster::FrameContext& frame, const raster::Chain& chain, const raster::SurfaceView& view,
                     Prepared& prepared, raster::Level& target);
 
   Solver solver_;
+  bool onGpu_ = false;
+  std::map<Solver, std::unique_ptr<raster::SurfacePass>> gpuSurfaces_;  ///< by solver, made when first needed
   HitShading& shading_;
   gl::Program numberProgram_{"virtual_object/virtual_triangle.vert", "virtual_object/virtual_triangle.frag"};
   raster::VirtualTriangles triangles_;
@@ -92,9 +125,9 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   std::vector<vec2> screen_;
   PartRects rects_;
   raster::MirrorBackgroundPass background_;
-  /// By reflector, whether it is seen from behind, whether it sees the objects directly, size of the
-  /// tessellation.
-  std::map<std::tuple<std::uint32_t, bool, bool, double>, std::unique_ptr<Prepared>> prepared_;
+  /// By reflector, whether it is seen from behind, whether flat mirrors stand behind it, whether objects that
+  /// turn their back to it are left out, size of the tessellation.
+  std::map<std::tuple<std::uint32_t, bool, bool, bool, double>, std::unique_ptr<Prepared>> prepared_;
   std::map<std::uint32_t, Prepared*> last_;  ///< of the last frame, by reflector seen directly
 };
 

@@ -35,7 +35,6 @@ namespace {
 constexpr double kNearSphere = 1.02;       // of the mesh's radius: slightly enlarged
 constexpr double kOnSurface = 1e-7;        // of the mesh's radius: a point this near lies on the mirror
 constexpr double kLongestStep = 0.7;       // of the mesh's radius
-constexpr double kLongestMirroring = 0.5;  // of the distance eye - mirror: keeps Q' in front of the eye
 constexpr double kNearlySine = 0.05;       // a root this near is good enough to place a doubly virtual vertex
 constexpr double kOutsideTriangle = 1e-6;  // barycentric slack
 
@@ -72,8 +71,8 @@ void VirtualObjectSolver::setEye(const dvec3& eye) {
   const double nearRadius = kNearSphere * mesh_->radius();
   const double farRadius = std::max(farRadius_, 2.0 * nearRadius);
   // Weights from relative distances d_near = (rho - r_n) / r_n, d_far = (r_f - rho) / r_f: linear in 1 / rho.
-  inverseFar_ = 1.0 / farRadius;
-  weightScale_ = 1.0 / (1.0 / nearRadius - inverseFar_);
+  inverseNear_ = 1.0 / nearRadius;
+  layersPerInverse_ = 1.0 / (1.0 / farRadius - inverseNear_);
   core::parallelFor(3, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (i == 0) fillExplosionMap(*mesh_, eye, nearRadius, rays_, scratch_[0], nearMap_);
@@ -85,7 +84,7 @@ void VirtualObjectSolver::setEye(const dvec3& eye) {
   laneView_ = {vec3(eye - mesh_->centre()), vec3(hiddenMap_.frame.x),       vec3(hiddenMap_.frame.y),
                vec3(hiddenMap_.frame.z),    vec2(hiddenMap_.lower),         vec2(hiddenMap_.pixelsPerUnit),
                float(hiddenMap_.nearest),   float(hiddenMap_.squaredCosine)};
-  if (finder_) finder_->setEye(makeEyeView());
+  if (finder_) finder_->setEye(eyeView());
 }
 
 /// Where the ray to the point meets the triangle that hides the point from the eye; nothing if none does.
@@ -122,10 +121,8 @@ std::optional<SurfacePoint> VirtualObjectSolver::findHidingPoint(const dvec3& sc
 VirtualVertex VirtualObjectSolver::mirrorHidden(const SurfacePoint& at, const dvec3& scenePoint) const {
   const MirrorTriangle& t = mesh_->triangles()[at.triangle];
   const dvec3 position = t.position(at.u, at.v);
-  const dvec3 behind = scenePoint - position;
-  const double depth = glm::length(behind), longest = kLongestMirroring * glm::length(position - eye_);
-  const dvec3 mirrored = core::reflectDirection(behind, glm::normalize(t.normal(at.u, at.v)));
-  const dvec3 virtualPosition = position + mirrored * (depth > longest ? longest / depth : 1.0);
+  const dvec3 virtualPosition =
+      formulas::mirrorHiddenPoint(eye_, position, glm::normalize(t.normal(at.u, at.v)), scenePoint);
   return {virtualPosition, position, at, 0, VertexKind::DoublyVirtual};
 }
 
@@ -136,8 +133,7 @@ VirtualVertex VirtualObjectSolver::solveExplosion(const dvec3& scenePoint, const
                   farAnswer = lookUpMap(*mesh_, farMap_, coords);
   const auto mirror = [&](const SurfacePoint& at) {
     const MirrorTriangle& t = mesh_->triangles()[at.triangle];
-    const dvec3 n = t.normal(at.u, at.v);
-    return scenePoint - n * (2.0 * glm::dot(scenePoint - t.position(at.u, at.v), n) / glm::dot(n, n));
+    return formulas::mirrorInPlane(scenePoint, t.position(at.u, at.v), t.normal(at.u, at.v));
   };
   const MapAnswer& heavier = w >= 0.5 ? nearAnswer : farAnswer;
   return {w * mirror(nearAnswer.at) + (1.0 - w) * mirror(farAnswer.at),
@@ -145,16 +141,12 @@ VirtualVertex VirtualObjectSolver::solveExplosion(const dvec3& scenePoint, const
           heavier.isExtension ? VertexKind::DoublyVirtual : VertexKind::Reflected};
 }
 
-/// MapCoords of the direction centre -> Q, without normalising it first, and the near map's weight.
+/// MapCoords of the direction centre -> Q, and the near map's weight.
 dvec2 VirtualObjectSolver::computeCoords(const dvec3& scenePoint, double& nearWeight) const {
   const dvec3 d = scenePoint - nearMap_.centre;
-  const MapFrame& frame = nearMap_.frame;
   const double distance = std::sqrt(std::max(glm::dot(d, d), 1e-300));
-  const double inverse = 1.0 / distance;
-  nearWeight = std::clamp((inverse - inverseFar_) * weightScale_, 0.0, 1.0);
-  const double cosine = std::max(glm::dot(frame.z, d) * inverse, -1.0 + 1e-12);
-  const double scale = inverse / std::sqrt(2.0 * (cosine + 1.0));
-  return {glm::dot(frame.x, d) * scale, glm::dot(frame.y, d) * scale};
+  nearWeight = 1.0 - formulas::mapLayerOf(distance, inverseNear_, layersPerInverse_, 1.0);
+  return computeMapCoords(nearMap_.frame, d * (1.0 / distance));
 }
 
 /// Step 1 of Refined, after the map was read.

@@ -132,6 +132,8 @@ class VirtualObjectSolver {
   [[nodiscard]] const ExplosionMap& nearMap() const { return nearMap_; }
   [[nodiscard]] const ExplosionMap& farMap() const { return farMap_; }
   [[nodiscard]] const HiddenMap& hiddenMap() const { return hiddenMap_; }
+  /// For finders; of use where canReflect().
+  [[nodiscard]] EyeView eyeView() const;
 
  private:
   [[nodiscard]] VirtualVertex solve(Solver solver, const dvec3& scenePoint) const;
@@ -150,7 +152,6 @@ class VirtualObjectSolver {
   [[nodiscard]] bool mayBeHidden(const vec3& local) const;
   [[nodiscard]] VirtualVertex solveFound(const dvec3& scenePoint) const;
   [[nodiscard]] std::optional<ReflectionPoint> describeFound(const dvec3& scenePoint) const;
-  [[nodiscard]] EyeView makeEyeView() const;
   [[nodiscard]] dvec2 computeCoords(const dvec3& scenePoint, double& nearWeight) const;
   [[nodiscard]] SurfacePoint findSeed(const SeedPixel& seed, double nearWeight) const;
   [[nodiscard]] std::optional<SurfacePoint> findHidingPoint(const dvec3& scenePoint, bool surely) const;
@@ -158,7 +159,7 @@ class VirtualObjectSolver {
 
   const ReflectorMesh* mesh_;
   dvec3 eye_{0};
-  double farRadius_ = 0, inverseFar_ = 0, weightScale_ = 0;
+  double farRadius_ = 0, inverseNear_ = 0, layersPerInverse_ = 0;
   SolverOptions options_;
   bool canReflect_ = false;
   ExplosionMap nearMap_, farMap_;

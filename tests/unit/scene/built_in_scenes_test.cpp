@@ -246,7 +246,7 @@ const Expected kExpected[] = {
     {"lenses", {{ReflectorShape::Sphere, 1}, {ReflectorShape::Mesh, 2}}, false},
     {"columns", {{ReflectorShape::Sphere, 1}}},
     {"teapot", {{ReflectorShape::Mesh, 6}}},
-    {"facing-mirrors", {{ReflectorShape::Mesh, 2}}},
+    {"facing-mirrors", {{ReflectorShape::Quadric, 2}}},
     {"furnished-room", {{ReflectorShape::Plane, 2}}, true, 195000},  // 189,982 in the paper
     {"reflector-sweep", {{ReflectorShape::Sphere, 4}}, true, 60000, false},
     {"object-sweep", {{ReflectorShape::Sphere, 4}}, true, 60000, false},

@@ -117,11 +117,11 @@ TEST(WorldGeometry, RecognisesCylinderAndCone) {
   EXPECT_TRUE(cone.reflectors[0].isConvex);
 }
 
-TEST(WorldGeometry, StretchedSphereIsAMesh) {
+TEST(WorldGeometry, StretchedSphereIsAQuadric) {
   const WorldGeometry world = makeWorldGeometry(
       makeScene(makeSphere(48, 24), makeMirrorMaterial(), glm::scale(dmat4(1), dvec3(1, 1.3, 0.8))));
   ASSERT_EQ(world.reflectors.size(), 1u);
-  EXPECT_EQ(world.reflectors[0].shape, ReflectorShape::Mesh);
+  EXPECT_EQ(world.reflectors[0].shape, ReflectorShape::Quadric);
   EXPECT_TRUE(world.reflectors[0].isConvex);
   // Normals went by the inverse transpose: they are perpendicular to the ellipsoid.
   for (std::size_t v = 0; v < world.positions.size(); ++v) {
@@ -147,7 +147,7 @@ TEST(WorldGeometry, SaddleIsNotConvex) {
     }
   const WorldGeometry world = makeWorldGeometry(makeScene(saddle));
   ASSERT_EQ(world.reflectors.size(), 1u);
-  EXPECT_EQ(world.reflectors[0].shape, ReflectorShape::Mesh);
+  EXPECT_EQ(world.reflectors[0].shape, ReflectorShape::Quadric);
   EXPECT_FALSE(world.reflectors[0].isConvex);
 }
 

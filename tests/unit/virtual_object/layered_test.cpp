@@ -2,6 +2,7 @@
 // Layered explosion maps: K = 2 is what the 1998 method has, and how the error falls with K.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -20,6 +21,8 @@ constexpr struct {
   int count;
   double errorPx;
 } kLayers[] = {{2, 8.7}, {3, 2.4}, {4, 1.1}, {6, 0.42}, {8, 0.20}, {12, 0.08}, {16, 0.04}};
+
+constexpr std::array kResolutions{32, 64, 128, 256, 512};  ///< pixels across a map
 
 TEST(Layered, TwoLayersAreTheMapsOfThe1998Method) {
   const ReflectorMesh mesh = meshOf(geometry::makeIcosphere(kRadius, 16));
@@ -83,12 +86,12 @@ double computeIdealError(const Setting& setting, int layers) {
   return sum / count;
 }
 
-/// The same of the solver, with maps of 256 x 256 triangle ids on a mesh.
-double computeMapError(const Setting& setting, const ReflectorMesh& mesh, int layers) {
+/// The same of the solver, with maps of triangle ids on a mesh.
+double computeMapError(const Setting& setting, const ReflectorMesh& mesh, int layers, int resolution) {
   const SpecialReflector sphere{SpecialShape::Sphere, dvec3(0), {0, 0, 1}, kRadius, 0, false};
   ReflectedRays rays;
   computeReflectedRays(mesh, setting.eye, rays);
-  LayeredFinder finder(mesh, layers);
+  LayeredFinder finder(mesh, layers, resolution);
   finder.setEye({setting.eye, setting.nearRadius, setting.farRadius, &rays});
   double sum = 0;
   int count = 0;
@@ -105,16 +108,28 @@ double computeMapError(const Setting& setting, const ReflectorMesh& mesh, int la
 TEST(Layered, ErrorFallsWithTheNumberOfLayers) {
   const Setting setting;
   const ReflectorMesh mesh = meshOf(geometry::makeIcosphere(kRadius, 25));
-  std::printf("layers  ideal maps, px  256 x 256 maps, px\n");
-  double lastIdeal = 1e9, lastMap = 1e9;
+  // scripts/layered_plot.py reads this table.
+  std::printf("mean error, px, by layers and by pixels across a map\nlayers    ideal");
+  for (const int resolution : kResolutions) std::printf(" %8d", resolution);
+  double lastIdeal = 1e9;
+  std::array<double, kResolutions.size()> last;
+  last.fill(1e9);
   for (const auto& [layers, stated] : kLayers) {
-    const double ideal = computeIdealError(setting, layers), map = computeMapError(setting, mesh, layers);
-    std::printf("%6d  %14.3f  %18.3f\n", layers, ideal, map);
+    const double ideal = computeIdealError(setting, layers);
+    std::printf("\n%6d %8.3f", layers, ideal);
     EXPECT_NEAR(ideal, stated, 0.2 * stated);
     EXPECT_LT(ideal, lastIdeal);
-    EXPECT_LT(map, lastMap * 1.02);
-    lastIdeal = ideal, lastMap = map;
+    lastIdeal = ideal;
+    double coarser = 1e9;
+    for (std::size_t i = 0; i < kResolutions.size(); ++i) {
+      const double error = computeMapError(setting, mesh, layers, kResolutions[i]);
+      std::printf(" %8.3f", error);
+      EXPECT_LT(error, last[i] * 1.02) << layers << " layers of " << kResolutions[i];
+      EXPECT_LT(error, coarser * 1.1) << layers << " layers of " << kResolutions[i];
+      last[i] = coarser = error;
+    }
   }
+  std::printf("\n");
   EXPECT_LT(lastIdeal, 0.1);
 }
 

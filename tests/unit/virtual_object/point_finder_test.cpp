@@ -132,12 +132,13 @@ TEST(Analytic, SaysWhatItCannotServe) {
       [](dvec2 p) {
         return geometry::HeightSample{0.05 * std::cos(6 * p.x), -0.3 * std::sin(6 * p.x), 0};
       });
-  const auto saddle = geometry::makeHeightField(
+  const auto monkeySaddle = geometry::makeHeightField(
       20, 20, [](dvec2 s) { return s; },
       [](dvec2 p) {
-        return geometry::HeightSample{0.2 * p.x * p.y, 0.2 * p.y, 0.2 * p.x};
+        return geometry::HeightSample{0.2 * p.x * (p.x * p.x - 3 * p.y * p.y), 0.6 * (p.x * p.x - p.y * p.y),
+                                      -1.2 * p.x * p.y};
       });
-  for (const auto* mesh : {&wave, &saddle}) {
+  for (const auto* mesh : {&wave, &monkeySaddle}) {
     const scene::WorldGeometry world = makeWorld(*mesh);
     EXPECT_NE(findAnalyticObstacle(world.reflectors.at(0)), "");
     EXPECT_EQ(makeAnalyticFinder(world, 0, false, 0.2), nullptr);

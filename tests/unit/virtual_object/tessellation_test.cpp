@@ -101,6 +101,17 @@ TEST(Tessellation, leavesOutWhatLiesBehindAnOpenMirror) {
   EXPECT_LT(areas[3], 5.5);
 }
 
+TEST(Tessellation, keepsWhatLiesBehindAnOpenMirrorForFlatOnesBehindIt) {
+  TestWorld world(geometry::makePlane(1, 1, 4, 4));
+  world.add(geometry::transformed(geometry::makeBox({1, 1, 1}), geometry::moveBy({0, -2, 0})), false);
+  EXPECT_TRUE(tessellateForReflector(world.geometry(), 0).parts.empty());
+  const TessellatedObjects objects = tessellateForReflector(world.geometry(), 0, {.keepsBehind = true});
+  double area = 0;
+  for (std::size_t i = 0; i < objects.indices.size(); i += 3)
+    area += areaOf(objects.positions, &objects.indices[i]);
+  EXPECT_NEAR(area, 6.0, 1e-4);
+}
+
 TEST(Tessellation, isFineNearTheMirrorAndCoarseAway) {
   const TestWorld world = makeWorld();
   const TessellatedObjects objects = tessellateForReflector(world.geometry(), 0);

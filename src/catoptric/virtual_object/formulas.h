@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// The formulas of shaders/lib that place virtual vertices, compiled as C++ in double: the processor's solvers
+// and the vertex shader share one text.
+#pragma once
+
+#include <cmath>
+
+#include "catoptric/core/math.h"
+
+namespace catoptric::virtual_object::formulas {
+
+using namespace glm;  // NOLINT: the included files are GLSL
+using Real = double;
+using Real2 = dvec2;
+using Real3 = dvec3;
+
+#define CATOPTRIC_FN inline
+#include "lib/mirror_law.glsl"
+#include "lib/virtual_vertex.glsl"
+#undef CATOPTRIC_FN
+
+}  // namespace catoptric::virtual_object::formulas
