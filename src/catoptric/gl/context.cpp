@@ -159,6 +159,12 @@ bool isSoftwareContext() {
   return name && isSoftwareRenderer(name);
 }
 
+int maxVaryingComponents() {
+  GLint components = 0;
+  glGetIntegerv(GL_MAX_VARYING_COMPONENTS, &components);
+  return components;
+}
+
 bool Context::isSoftware() const {
   return impl_->software;
 }

@@ -13,6 +13,8 @@ namespace catoptric::gl {
 [[nodiscard]] bool isSoftwareRenderer(std::string_view name);
 /// The same of the current context.
 [[nodiscard]] bool isSoftwareContext();
+/// Floats that its vertex shaders may hand on, 60 at least.
+[[nodiscard]] int maxVaryingComponents();
 
 struct ContextOptions {
   /// Debug context: any GL error or message of medium or high severity is remembered and thrown by check().

@@ -10,7 +10,9 @@
 namespace catoptric::raster {
 
 void addConstantsDefine(std::vector<std::string>& defines) {
-  if (gl::isSoftwareContext()) defines.emplace_back("FLAT_CONSTANTS");
+  constexpr int kVaryingComponents = 4 * 23;  // of virtual_object/virtual_surface.vert, which has the most
+  if (gl::isSoftwareContext() && gl::maxVaryingComponents() >= kVaryingComponents)
+    defines.emplace_back("FLAT_CONSTANTS");
 }
 
 void bindSurfaceShading(gl::Program& program, const SceneBuffers& scene) {
