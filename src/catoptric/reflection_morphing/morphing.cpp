@@ -42,6 +42,7 @@ void morphVertices(const vec3& eye, const std::array<float, 8>& weights, const C
   assert(virtualPositions.size() == corners.points.size() && mirrorPoints.size() == corners.points.size());
   core::parallelFor(corners.points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
+      if (corners.kinds[i] == raster::VertexKind::None) continue;
       const std::array<vec4, 8>& p = corners.points[i];
       vec4 sum = weights[0] * p[0];
       for (std::size_t k = 1; k < 8; ++k) sum += weights[k] * p[k];
