@@ -14,8 +14,8 @@
 // Departures from 2004: vertices that are not reflected but belong to a triangle that is are placed by
 // continuing the map past its edge; the paper drops such triangles, which leaves gaps at the rim. The length
 // of the path is interpolated, for traces over several mirrors. Failures: the interpolated point is off by
-// the sag of the mirror points between the locations, which grows with the square of the cell. Cost: step 1
-// 1 us a vertex and core, steps 2 and 3 20 ns. Source: Martin & Popescu 2004, section 6.
+// the sag of the mirror points between the locations, which grows with the square of the cell. Cost: the
+// rates in the README. Source: Martin & Popescu 2004, section 6.
 #include "catoptric/reflection_morphing/morphing.h"
 
 #include <algorithm>
