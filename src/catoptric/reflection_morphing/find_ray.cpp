@@ -4,9 +4,10 @@
 // In: a ray table, scene points (world), for each a texel whose ray passes near it. Out: the first mirror
 // point on the ray through it, the length of the path from there to the point, and whether the ray is one of
 // the trace.
-//   1. Gauss-Newton on the interpolated table, eight searches side by side (ray_lanes.cpp). All searches make
-//      their first step, then those that are not at their end the second one, and so on.
-//   2. A step under a tenth of a texel is taken on the linear map and is the last one: what it leaves is a
+//   1. Gauss-Newton on the interpolated table, eight searches side by side (ray_lanes.h). All searches make
+//      their first step as they lie in the batch, unless they are few; then those that are not at their end
+//      make the second one, closed up, and so on.
+//   2. A step under a twelfth of a texel is taken on the linear map and is the last one: what it leaves is a
 //      hundredth of it, more at the rim. One or two steps are usual.
 //   3. A step that leaves the map is shortened to its edge; the second time the search ends there and the
 //      last step is taken anyway, which continues the map linearly.
@@ -17,7 +18,7 @@
 #include "catoptric/reflection_morphing/find_ray.h"
 
 #include <algorithm>
-#include <cassert>
+#include <bit>
 
 #include "catoptric/reflection_morphing/ray_lanes.h"
 
@@ -25,100 +26,191 @@ namespace catoptric::reflection_morphing {
 namespace {
 
 constexpr int kMostSteps = 8;
-constexpr int kMostShortened = 2;
 constexpr int kShortenings = 5;
 
-/// The searches that are under way.
-class RaySearches {
- public:
-  RaySearches(const RayTable& table, RayBatch& batch) : table_(table), batch_(batch) {}
+/// What RayTable::cells says of each lane's cell; 0 off the table.
+CATOPTRIC_INLINE EightInts readCells(const RayTable& table, const EightInts& cell,
+                                     const EightInts& isOnTable) {
+  EightInts read;
+  for (int i = 0; i < kLanes; ++i) read[i] = table.cells[std::size_t(cell[i])];
+  return read & isOnTable;
+}
 
-  void run(std::span<const std::uint8_t> which) {
-    std::copy(which.begin(), which.end(), busy_.begin());
-    busyCount_ = which.size();
-    for (const std::uint8_t i : which) {
-      shortened_[i] = 0;
-      prefetch(i);
+CATOPTRIC_INLINE EightInts findFilledLanes(const RayTable& table, const Eight& x, const Eight& y) {
+  const float end = float(table.size - 1);
+  const EightInts isOnTable = (x >= 0.0f) & (y >= 0.0f) & (x < end) & (y < end);
+  const Eight safeX = isOnTable ? x : Eight{}, safeY = isOnTable ? y : Eight{};
+  const EightInts cell =
+      __builtin_convertvector(safeY, EightInts) * table.size + __builtin_convertvector(safeX, EightInts);
+  return (readCells(table, cell, isOnTable) & 1) != 0;
+}
+
+CATOPTRIC_INLINE void prefetch(const RayTable& table, float x, float y) {
+  const std::size_t at = table.at(int(x), int(y));
+  __builtin_prefetch(&table.leaving[at]);
+  __builtin_prefetch(&table.leaving[at + std::size_t(table.size)]);
+  __builtin_prefetch(&table.cells[at]);
+}
+
+/// Eight searches after a step.
+struct Lanes {
+  RayStep step;
+  Eight x, y;            ///< where they stand now
+  EightInts isInside;    ///< ended in a cell of the trace
+  unsigned goOn, leave;  ///< a bit for each one that is to make another step, or whose step left the map
+};
+
+/// Step 2. A search that `isLast` ends here.
+CATOPTRIC_INLINE Lanes advance(const RayTable& table, const Eight& x, const Eight& y, const Eight* point,
+                               const EightInts& isLast) {
+  static_assert(RayTable::kFilled == 1 && RayTable::kRay == 2);
+  Lanes lanes;
+  const RayStep& s = lanes.step = makeRayStep(table, x, y, point);
+  const EightInts cell = readCells(table, s.cell, s.isOnTable), isFilled = (cell & 1) != 0;
+  const EightInts isLong = ~s.isShort & ~isLast;
+  lanes.isInside = s.isShort & s.isAhead & (((cell >> (s.corner + 1)) & 1) != 0);
+  const EightInts moves = isFilled & (isLong | lanes.isInside);
+  lanes.x = moves ? s.x : x;
+  lanes.y = moves ? s.y : y;
+  lanes.goOn = toBits(isLong & isFilled);
+  lanes.leave = toBits(isLong & ~isFilled);
+  return lanes;
+}
+
+/// In how many eights of the batch there are some.
+inline std::size_t countEights(SearchSet which) {
+  std::size_t count = 0;
+  for (; which != 0; which >>= kLanes) count += (which & 0xffu) != 0 ? 1 : 0;
+  return count;
+}
+
+/// The searches that are under way.
+class Searches {
+ public:
+  Searches(const RayTable& table, int mostShortened, RayBatch& batch)
+      : table_(table), batch_(batch), mostShortened_(mostShortened), edge_(mostShortened > 0 ? ~0u : 0u) {}
+
+  CATOPTRIC_INLINE SearchSet run(SearchSet which) {
+    for (SearchSet rest = which; rest != 0; rest &= rest - 1) {
+      const auto i = std::size_t(std::countr_zero(rest));
+      prefetch(table_, batch_.x[i], batch_.y[i]);
     }
-    for (int step = 0; busyCount_ > 0; ++step) {
-      std::size_t next = 0;
+    shortened_.fill(0);
+    const bool isSparse = 2 * std::size_t(std::popcount(which)) < kLanes * countEights(which);
+    if (isSparse) forEachSearch(which, [&](std::size_t i) { busy_[busyCount_++] = std::uint8_t(i); });
+    for (std::size_t first = 0; first < kMostSearches && !isSparse; first += kLanes)
+      if (const auto active = unsigned(which >> first & 0xffu); active != 0) beginEight(first, active);
+    for (int step = isSparse ? 0 : 1; busyCount_ > 0; ++step) {
       const std::size_t count = busyCount_;
-      for (std::size_t first = 0; first < count; first += kRayLanes) {
-        const std::size_t lanes = std::min(count - first, std::size_t(kRayLanes));
-        load(first, lanes);
-        evaluateRayLanes(table_, lanes_);
-        for (std::size_t lane = 0; lane < lanes; ++lane) {
-          const std::uint8_t i = busy_[first + lane];
-          if (advance(int(lane), i, step == kMostSteps)) busy_[next++] = i;
-        }
-      }
-      busyCount_ = next;
+      busyCount_ = 0;
+      for (std::size_t first = 0; first < count; first += kLanes)
+        goOnEight(first, std::min(count - first, std::size_t(kLanes)), step == kMostSteps);
     }
+    return inside_;
   }
 
  private:
-  void prefetch(std::uint8_t i) const {
-    const std::size_t at = table_.at(int(batch_.x[i]), int(batch_.y[i]));
-    __builtin_prefetch(&table_.leaving[at]);
-    __builtin_prefetch(&table_.leaving[at + std::size_t(table_.size)]);
-    __builtin_prefetch(&table_.cells[at]);
+  /// Searches that follow each other in the batch; those that are not `active` keep what they have.
+  CATOPTRIC_INLINE void beginEight(std::size_t first, unsigned active) {
+    const EightInts isActive = fromBits(active);
+    const Eight x = load(&batch_.x[first]), y = load(&batch_.y[first]);
+    const Eight point[3] = {load(&batch_.point[0][first]), load(&batch_.point[1][first]),
+                            load(&batch_.point[2][first])};
+    const Lanes lanes = advance(table_, isActive ? x : Eight{}, isActive ? y : Eight{}, point, EightInts{});
+    const auto put = [&](const Eight& value, RayBatch::Floats& to) __attribute__((always_inline)) {
+      store(&to[first], isActive ? value : load(&to[first]));
+    };
+    put(lanes.x, batch_.x), put(lanes.y, batch_.y), put(lanes.step.rest, batch_.rest);
+    for (int k = 0; k < 3; ++k) put(lanes.step.mirror[k], batch_.mirror[k]);
+    inside_ |= SearchSet(toBits(lanes.isInside) & active) << first;
+    for (unsigned lane = 0; lane < kLanes; ++lane)
+      if (((lanes.goOn | (lanes.leave & edge_)) & active) >> lane & 1u)
+        followUp(lanes, lane, std::uint8_t(first + lane));
   }
-  /// Lanes that are left over repeat the last search.
-  void load(std::size_t first, std::size_t lanes) {
-    for (std::size_t lane = 0; lane < kRayLanes; ++lane) {
-      const std::uint8_t i = busy_[first + std::min(lane, lanes - 1)];
-      assert(table_.isFilled({batch_.x[i], batch_.y[i]}));
-      lanes_.x[lane] = batch_.x[i];
-      lanes_.y[lane] = batch_.y[i];
-      for (int k = 0; k < 3; ++k) lanes_.point[k][lane] = batch_.point[k][i];
+
+  /// Searches first to first + count of those that are under way.
+  CATOPTRIC_INLINE void goOnEight(std::size_t first, std::size_t count, bool areLast) {
+    Eight x, y, point[3];
+    EightInts isLast{};
+    std::uint8_t which[kLanes];
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const std::uint8_t i = which[lane] = busy_[first + std::min(lane, count - 1)];
+      x[lane] = batch_.x[i];
+      y[lane] = batch_.y[i];
+      for (int k = 0; k < 3; ++k) point[k][lane] = batch_.point[k][i];
+      isLast[lane] = areLast || (shortened_[i] == mostShortened_ && mostShortened_ > 0) ? -1 : 0;
+    }
+    const Lanes lanes = advance(table_, x, y, point, isLast);
+    const unsigned inside = toBits(lanes.isInside);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const std::uint8_t i = which[lane];
+      batch_.x[i] = lanes.x[lane];
+      batch_.y[i] = lanes.y[lane];
+      batch_.rest[i] = lanes.step.rest[lane];
+      for (int k = 0; k < 3; ++k) batch_.mirror[k][i] = lanes.step.mirror[k][lane];
+      inside_ |= SearchSet(inside >> lane & 1u) << i;
+      if (((lanes.goOn | (lanes.leave & edge_)) >> lane & 1u) != 0) followUp(lanes, unsigned(lane), i);
     }
   }
 
-  /// Steps 2 and 3 for a lane that has been evaluated; true while its search goes on.
-  bool advance(int lane, std::uint8_t i, bool isLast) {
-    const int at = lanes_.nextCell[lane];
-    const unsigned cell = at < 0 ? 0u : table_.cells[std::size_t(at)];
-    const bool isShort = lanes_.isShort[lane] != 0;
-    if (!isShort && !isLast && shortened_[i] < kMostShortened && moveOn(lane, i, cell)) return true;
-    for (int k = 0; k < 3; ++k) batch_.mirror[k][i] = lanes_.mirror[k][lane];
-    batch_.rest[i] = lanes_.rest[lane];
-    const bool isInside =
-        isShort && lanes_.isAhead[lane] != 0 && (cell & (RayTable::kRay << lanes_.nextCorner[lane])) != 0;
-    batch_.isInside[i] = isInside ? 1 : 0;
-    if (isInside && (cell & RayTable::kFilled) != 0) {
-      batch_.x[i] = lanes_.nextX[lane];
-      batch_.y[i] = lanes_.nextY[lane];
-    }
-    return false;
+  CATOPTRIC_INLINE void followUp(const Lanes& lanes, unsigned lane, std::uint8_t i) {
+    if ((lanes.leave >> lane & 1u) != 0 && !shorten(i, {lanes.step.x[lane], lanes.step.y[lane]})) return;
+    busy_[busyCount_++] = i;
+    prefetch(table_, batch_.x[i], batch_.y[i]);
   }
-  bool moveOn(int lane, std::uint8_t i, unsigned cell) {
-    const vec2 p(lanes_.x[lane], lanes_.y[lane]);
-    vec2 next(lanes_.nextX[lane], lanes_.nextY[lane]);
-    if ((cell & RayTable::kFilled) == 0) {
-      const vec2 step = next - p;
-      float part = 1;
-      for (int k = 0; k < kShortenings && !table_.isFilled(next); ++k) next = p + (part *= 0.5f) * step;
-      if (!table_.isFilled(next)) return false;
-      ++shortened_[i];
-    }
-    batch_.x[i] = next.x;
-    batch_.y[i] = next.y;
-    prefetch(i);
+
+  /// Step 3; false where the search ends. `next`: where its step would lead. All that may be left of the step
+  /// are tried side by side.
+  CATOPTRIC_INLINE bool shorten(std::size_t i, const vec2& next) {
+    const Eight part{0.5f, 0.25f, 0.125f, 0.0625f, 0.03125f};
+    const Eight x = batch_.x[i] + (next.x - batch_.x[i]) * part,
+                y = batch_.y[i] + (next.y - batch_.y[i]) * part;
+    const unsigned filled = toBits(findFilledLanes(table_, x, y)) & ((1u << kShortenings) - 1);
+    if (filled == 0) return false;
+    const int longest = std::countr_zero(filled);
+    ++shortened_[i];
+    batch_.x[i] = x[longest];
+    batch_.y[i] = y[longest];
     return true;
   }
 
   const RayTable& table_;
   RayBatch& batch_;
-  RayLanes lanes_;
+  int mostShortened_;
+  unsigned edge_;  ///< the lanes that may go on from there
+  SearchSet inside_ = 0;
   std::array<std::uint8_t, kMostSearches> busy_, shortened_;
   std::size_t busyCount_ = 0;
 };
 
+struct FindRays {
+  CATOPTRIC_INLINE static void run(const RayTable& table, const SearchSet& which, const int& mostShortened,
+                                   RayBatch& batch, SearchSet& inside) {
+    inside = Searches(table, mostShortened, batch).run(which);
+  }
+};
+
+struct FindFilled {
+  CATOPTRIC_INLINE static void run(const RayTable& table, const RayBatch& batch, SearchSet& filled) {
+    for (std::size_t first = 0; first < kMostSearches; first += kLanes) {
+      const EightInts isFilled = findFilledLanes(table, load(&batch.x[first]), load(&batch.y[first]));
+      filled |= SearchSet(toBits(isFilled)) << first;
+    }
+  }
+};
+
 }  // namespace
 
-void findRays(const RayTable& table, std::span<const std::uint8_t> which, RayBatch& batch) {
-  assert(which.size() <= kMostSearches);
-  if (!which.empty()) RaySearches(table, batch).run(which);
+SearchSet findRays(const RayTable& table, SearchSet which, int mostShortened, RayBatch& batch) {
+  SearchSet inside = 0;
+  if (which != 0) core::runOnWidestVectors<FindRays>(table, which, mostShortened, batch, inside);
+  return inside;
+}
+
+SearchSet findFilled(const RayTable& table, SearchSet which, const RayBatch& batch) {
+  SearchSet filled = 0;
+  core::runOnWidestVectors<FindFilled>(table, batch, filled);
+  return filled & which;
 }
 
 FoundRay findRay(const RayTable& table, const vec3& scenePoint, const vec2& texel) {
@@ -126,10 +218,8 @@ FoundRay findRay(const RayTable& table, const vec3& scenePoint, const vec2& texe
   for (int k = 0; k < 3; ++k) batch.point[k][0] = scenePoint[k];
   batch.x[0] = texel.x;
   batch.y[0] = texel.y;
-  const std::uint8_t first = 0;
-  findRays(table, std::span(&first, 1), batch);
-  return {
-      {batch.mirror[0][0], batch.mirror[1][0], batch.mirror[2][0]}, batch.rest[0], batch.isInside[0] != 0};
+  const bool isInside = findRays(table, 1, kMostShortened, batch) != 0;
+  return {{batch.mirror[0][0], batch.mirror[1][0], batch.mirror[2][0]}, batch.rest[0], isInside};
 }
 
 }  // namespace catoptric::reflection_morphing

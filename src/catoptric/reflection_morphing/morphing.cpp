@@ -14,8 +14,8 @@
 // Departures from 2004: vertices that are not reflected but belong to a triangle that is are placed by
 // continuing the map past its edge; the paper drops such triangles, which leaves gaps at the rim. The length
 // of the path is interpolated, for traces over several mirrors. Failures: the interpolated point is off by
-// the sag of the mirror points between the locations, which grows with the square of the cell. Cost: step 1
-// 1 us a vertex and core, steps 2 and 3 20 ns. Source: Martin & Popescu 2004, section 6.
+// the sag of the mirror points between the locations, which grows with the square of the cell. Cost: the
+// rates in the README. Source: Martin & Popescu 2004, section 6.
 #include "catoptric/reflection_morphing/morphing.h"
 
 #include <algorithm>
@@ -42,6 +42,7 @@ void morphVertices(const vec3& eye, const std::array<float, 8>& weights, const C
   assert(virtualPositions.size() == corners.points.size() && mirrorPoints.size() == corners.points.size());
   core::parallelFor(corners.points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
+      if (corners.kinds[i] == raster::VertexKind::None) continue;
       const std::array<vec4, 8>& p = corners.points[i];
       vec4 sum = weights[0] * p[0];
       for (std::size_t k = 1; k < 8; ++k) sum += weights[k] * p[k];

@@ -33,7 +33,8 @@ void lookUpCorners(const CellTrace& trace, std::span<const vec3> scenePoints,
 /// the weight has it.
 [[nodiscard]] std::array<float, 8> weighTrace(const CellTrace& trace, const std::array<float, 8>& weights);
 
-/// Interpolates the mirror points and pushes them along the view ray to the length of the path.
+/// Interpolates the mirror points and pushes them along the view ray to the length of the path. Leaves what
+/// is of kind None as it is.
 void morphVertices(const vec3& eye, const std::array<float, 8>& weights, const CornerPoints& corners,
                    std::span<vec3> virtualPositions, std::span<vec3> mirrorPoints);
 

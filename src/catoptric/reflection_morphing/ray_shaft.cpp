@@ -8,7 +8,7 @@
 //   3. So n.q <= offset, the largest n.o over the rays' origins o, on every ray, and on every mixture of rays
 //      with positive weights: on all that findRays() interpolates.
 //   4. What is seen ends a texel and a half before the continued map does, so that the last step of a search,
-//      a tenth of a texel out of its cell, stays inside. Slopes and offsets are widened by some thousandths
+//      a twelfth of a texel out of its cell, stays inside. Slopes and offsets are widened by some thousandths
 //      for its curvature and for rounding.
 //
 // Departures from 2004: the paper has no such test. Where a ray leaves at more than 84 degrees from the axis,

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// Eight numbers side by side, for loops that core/widest_vectors.h compiles for several processors.
+//
+// src/catoptric/CMakeLists.txt gives flags to the files that include it: without them a root of eight lanes
+// is not one instruction.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "catoptric/core/widest_vectors.h"
+
+// How vectors are handed over by value does not matter: all is inlined.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace catoptric::reflection_morphing {
+
+inline constexpr int kLanes = 8;
+
+using Eight = float __attribute__((vector_size(32)));
+/// Also truths: -1 where something holds, 0 where not.
+using EightInts = std::int32_t __attribute__((vector_size(32)));
+using Eights = Eight[8];
+
+CATOPTRIC_INLINE Eight load(const float* from) {
+  Eight value;
+  std::memcpy(&value, from, sizeof value);
+  return value;
+}
+
+CATOPTRIC_INLINE void store(float* to, const Eight& value) {
+  std::memcpy(to, &value, sizeof value);
+}
+
+CATOPTRIC_INLINE Eight dot(const Eight* a, const Eight* b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+CATOPTRIC_INLINE Eight squareRoot(Eight a) {
+  for (int i = 0; i < kLanes; ++i) a[i] = std::sqrt(a[i]);
+  return a;
+}
+
+CATOPTRIC_INLINE Eight larger(const Eight& a, const Eight& b) {
+  return a > b ? a : b;
+}
+
+/// A bit for each lane that holds.
+CATOPTRIC_INLINE unsigned toBits(const EightInts& holds) {
+  EightInts bits = holds & EightInts{1, 2, 4, 8, 16, 32, 64, 128};
+  bits |= __builtin_shufflevector(bits, bits, 4, 5, 6, 7, 0, 1, 2, 3);
+  bits |= __builtin_shufflevector(bits, bits, 2, 3, 0, 1, 6, 7, 4, 5);
+  bits |= __builtin_shufflevector(bits, bits, 1, 0, 3, 2, 5, 4, 7, 6);
+  return unsigned(bits[0]);
+}
+
+/// The other way round.
+CATOPTRIC_INLINE EightInts fromBits(unsigned bits) {
+  return ((EightInts{} + std::int32_t(bits)) & EightInts{1, 2, 4, 8, 16, 32, 64, 128}) != 0;
+}
+
+/// Rows become columns.
+CATOPTRIC_INLINE void transpose(Eights& m) {
+  Eights pairs, fours;
+  for (int k = 0; k < 8; k += 2) {
+    pairs[k] = __builtin_shufflevector(m[k], m[k + 1], 0, 8, 1, 9, 4, 12, 5, 13);
+    pairs[k + 1] = __builtin_shufflevector(m[k], m[k + 1], 2, 10, 3, 11, 6, 14, 7, 15);
+  }
+  for (int k = 0; k < 8; k += 4)
+    for (int h = 0; h < 2; ++h) {
+      fours[k + 2 * h] = __builtin_shufflevector(pairs[k + h], pairs[k + h + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+      fours[k + 2 * h + 1] =
+          __builtin_shufflevector(pairs[k + h], pairs[k + h + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+    }
+  for (int k = 0; k < 4; ++k) {
+    m[k] = __builtin_shufflevector(fours[k], fours[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+    m[k + 4] = __builtin_shufflevector(fours[k], fours[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+  }
+}
+
+}  // namespace catoptric::reflection_morphing
