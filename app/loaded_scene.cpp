@@ -150,8 +150,12 @@ void checkSource(const std::string& source) {
     throwNotFound(source);
 }
 
+scene::Environment makeEnvironmentFrom(const std::string& file) {
+  return file.empty() ? scene::makeSkyEnvironment() : scene::readEnvironment(file);
+}
+
 void loadEnvironment(LoadedScene& loaded, const std::string& file) {
-  loaded.environment = file.empty() ? scene::makeSkyEnvironment() : scene::readEnvironment(file);
+  loaded.environment = makeEnvironmentFrom(file);
 }
 
 scene::Camera chooseCamera(const LoadedScene& loaded, const CameraOptions& options) {

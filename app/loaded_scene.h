@@ -41,6 +41,9 @@ void checkMotion(const LoadedScene& loaded, const SceneOptions& options);
 /// each.
 void checkSource(const std::string& source);
 
+/// The built-in sky where no file is named. Throws core::Error.
+[[nodiscard]] scene::Environment makeEnvironmentFrom(const std::string& file);
+
 void loadEnvironment(LoadedScene& loaded, const std::string& file);
 
 /// Throws UsageError for options that contradict each other, core::Error for a camera that is not there.

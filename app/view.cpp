@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <future>
 #include <memory>
 
 #include "catoptric/core/error.h"
@@ -87,8 +88,17 @@ viewer::LoadResult load(const Options& options, const viewer::LoadRequest& reque
   sceneOptions.noReflectors = request.noReflectors;
   sceneOptions.timeS.reset();  // the viewer itself moves its scenes
   sceneOptions.animation.clear();
+  const auto enter = [&](viewer::LoadStep step) {
+    if (request.step) *request.step = step;
+  };
+  enter(viewer::LoadStep::Scene);
+  // Reading a scene leaves a core idle now and then.
+  auto surroundings =
+      std::async(std::launch::async, [&] { return makeEnvironmentFrom(request.environment); });
   std::shared_ptr<LoadedScene> loaded = loadScene(request.source, sceneOptions);
-  loadEnvironment(*loaded, request.environment);
+  enter(viewer::LoadStep::Surroundings);
+  loaded->environment = surroundings.get();
+  enter(viewer::LoadStep::Drawing);
   viewer::LoadResult result;
   result.request = request;
   if (isFirst) {

@@ -3,7 +3,7 @@
 """viewer_figures.py [SCENE...]: how fast the viewer is, as a table; four-spheres unless scenes are named.
 
 Each scene in a window of 960x720 on a virtual X server of its own (Xvfb, xdotool), orbited by the mouse for
-CATOPTRIC_ORBIT_SECONDS (10). Columns: from the command to the first picture, coarse, and in full; pictures a second while orbiting, their
+CATOPTRIC_ORBIT_SECONDS (10), the mirrors in view. Columns: from the command to the first picture, coarse, and in full; pictures a second while orbiting, their
 median size; from an input to the picture that shows it, the input the first one that no earlier picture showed, median and 95 %.
 CATOPTRIC names the command.
 """
@@ -32,10 +32,12 @@ def percentile(values, share):
 
 def orbit(viewer):
     """Said while the mouse goes to and fro; a move each 10 ms, as a mouse sends them."""
-    viewer.do("mousemove", 700, 360, "mousedown", 1)
+    viewer.do("mousemove", 700, 360)
+    time.sleep(0.3)  # the press must not be where the pointer came from
+    viewer.do("mousedown", 1)
     before, end, moves = len(viewer.said()), time.monotonic() + ORBIT_SECONDS, 0
     while time.monotonic() < end:
-        step = 6 if moves // 20 % 2 == 0 else -6
+        step = 6 if moves // 10 % 2 == 0 else -6
         viewer.do(*(["mousemove_relative", "--", step, 0, "sleep", "0.01"] * 10))
         moves += 10
     said = viewer.said()[before:]
@@ -72,7 +74,7 @@ def measure(scene, display):
     if code != 0 or not frames:
         return f"| {scene} | the viewer ended with {code}, {len(frames)} pictures |"
     width = int(statistics.median(widths))
-    return (f"| {scene} | {first} | {full} | {len(frames) / ORBIT_SECONDS:.1f} | {width}x{width * 3 // 4} | "
+    return (f"| {os.path.basename(scene)} | {first} | {full} | {len(frames) / ORBIT_SECONDS:.1f} | {width}x{width * 3 // 4} | "
             f"{statistics.median(latencies):.0f} | {percentile(latencies, 0.95):.0f} |")
 
 

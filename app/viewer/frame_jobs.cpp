@@ -64,7 +64,9 @@ TruthResult judge(const TruthRequest& request, const renderer::Frame& truth, Tru
 }  // namespace
 
 FrameWorker::Work makeFrameWork() {
-  return [kept = std::make_shared<KeptRenderer>()](const FrameRequest& request) {
+  const auto kept = std::make_shared<KeptRenderer>();
+  kept->warmUp();
+  return [kept](const FrameRequest& request) {
     const auto start = std::chrono::steady_clock::now();
     FrameResult result;
     result.request = request;

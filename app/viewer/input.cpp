@@ -152,7 +152,8 @@ void handleMouse(Model& model, const ivec2& windowPx) {
   if (ImGui::IsMouseDoubleClicked(0) && model.picked && !model.picked->seen.isSky()) {
     const Picked& picked = *model.picked;
     setPivot(camera, picked.reflectionPoint.value_or(dvec3(picked.seen.point)));
-  } else if (moved != dvec2(0)) {
+  } else if (moved != dvec2(0) && !ImGui::IsMouseClicked(0) &&
+             !ImGui::IsMouseClicked(2)) {  // not before the press
     if (ImGui::IsMouseDown(2) || (ImGui::IsMouseDown(0) && io.KeyShift))
       pan(camera, moved, windowPx.y);
     else if (ImGui::IsMouseDown(0))

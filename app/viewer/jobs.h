@@ -20,11 +20,15 @@
 
 namespace catoptric::viewer {
 
+/// How far the loading of a scene has come.
+enum class LoadStep : std::uint8_t { Waiting, Scene, Surroundings, Drawing };
+
 struct LoadRequest {
-  std::string source, environment;   ///< as on the command line; no environment = the built-in sky
-  std::vector<std::string> mirrors;  ///< names of the only reflectors; empty = all ...
-  bool noReflectors = false;         ///< ... or none
-  bool keepsCamera = false;          ///< the same scene again: the eye stays where it is
+  std::string source, environment;              ///< as on the command line; no environment = the built-in sky
+  std::vector<std::string> mirrors;             ///< names of the only reflectors; empty = all ...
+  bool noReflectors = false;                    ///< ... or none
+  bool keepsCamera = false;                     ///< the same scene again: the eye stays where it is
+  std::shared_ptr<std::atomic<LoadStep>> step;  ///< told how far it is; may be null
 };
 
 struct LoadResult {

@@ -98,6 +98,11 @@ struct Model {
   dvec3 shiftBefore{0};  ///< of the value in a panel that is being changed
   scene::MaterialValues materialBefore;
   std::optional<Recording> recording;
+  std::vector<std::string> environments;        ///< files that have surrounded a scene in this window
+  std::vector<std::string> environmentsListed;  ///< to choose from
+  std::shared_ptr<const std::atomic<LoadStep>> loadStep;
+  std::string loadingName;
+  std::chrono::steady_clock::time_point loadStart{};
   bool isLoading = false, isDrawing = false, isTracing = false;
   FrameResult frame;  ///< its picture is what is shown
   std::optional<TruthResult> truth;

@@ -8,6 +8,7 @@
 
 #include "viewer/camera_control.h"
 #include "viewer/edit_panel.h"
+#include "viewer/environment_panel.h"
 #include "viewer/input.h"
 #include "viewer/inside_panel.h"
 #include "viewer/scene_panels.h"
@@ -56,6 +57,7 @@ void drawMethod(Model& model) {
     changed = true;
   }
   if (renderer::hasMerges(model.variants[view.variant].method)) changed |= drawMerge(view.frame);
+  drawEnvironments(model);
   changed |= ImGui::SliderFloat("exposure", &view.exposure, 0.1f, 10, "%.2f", ImGuiSliderFlags_Logarithmic);
   changed |= ImGui::SliderFloat("resolution", &view.resolution, 0.25f, 1, "%.2f");
   view.frame.bounces = std::clamp(view.frame.bounces, 0, 16);
@@ -162,9 +164,18 @@ void drawHelp(Model& model) {
   ImGui::End();
 }
 
+std::string describeLoading(const Model& model) {
+  const LoadStep step = model.loadStep ? model.loadStep->load() : LoadStep::Waiting;
+  const char* what = step == LoadStep::Surroundings ? "surroundings"
+                     : step == LoadStep::Drawing    ? "first picture"
+                                                    : "scene";
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - model.loadStart;
+  return fmt::format("loading {}: {} ... {:.1f} s", model.loadingName, what, passed.count());
+}
+
 void drawStatus(const Model& model) {
   std::string text = model.message;
-  if (model.isLoading) text = "loading ...";
+  if (model.isLoading) text = describeLoading(model);
   if (text.empty()) return;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(ImVec2(display.x * 0.5f, display.y - 10), ImGuiCond_Always, ImVec2(0.5f, 1.0f));

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "catoptric/core/error.h"
+
 namespace catoptric::viewer {
 namespace {
 
@@ -93,6 +95,14 @@ GeometryPointer PosedScene::snapshot() {
   return snapshot_;
 }
 
+void KeptRenderer::warmUp() {
+  try {
+    context_ = renderer::makeSharedContext();
+  } catch (const core::Error&) {
+    context_.reset();
+  }
+}
+
 renderer::Renderer& KeptRenderer::prepare(const ScenePointer& scene, const SceneState& state) {
   std::optional<PosedScene::Change> change;
   if (posed_ && posed_->base() == scene) change = posed_->bring(state);
@@ -102,7 +112,8 @@ renderer::Renderer& KeptRenderer::prepare(const ScenePointer& scene, const Scene
     posed_ = std::make_unique<PosedScene>(scene, state);
   }
   if (!renderer_)
-    renderer_ = std::make_unique<renderer::Renderer>(posed_->scene(), posed_->geometry(), scene->environment);
+    renderer_ = std::make_unique<renderer::Renderer>(posed_->scene(), posed_->geometry(), scene->environment,
+                                                     context_);
   else if (change && !change->isNothing()) {
     if (change->materials) renderer_->updateMaterials();
     if (!change->movedParts.empty() || change->lights) renderer_->updateGeometry(change->movedParts);

@@ -59,10 +59,16 @@ class KeptRenderer {
 
   /// Valid until the next call. After a failure of the renderer, call drop(): a lost context stays lost.
   [[nodiscard]] renderer::Renderer& prepare(const ScenePointer& scene, const SceneState& state);
-  void drop() { renderer_.reset(); }
+  void drop() {
+    renderer_.reset();
+    context_.reset();
+  }
+  /// Makes the OpenGL context before there is a scene; where there is no OpenGL the first frame says so.
+  void warmUp();
   [[nodiscard]] PosedScene& posed() { return *posed_; }
 
  private:
+  std::shared_ptr<gl::Context> context_;  ///< of one renderer after the other; null: each makes its own
   std::unique_ptr<PosedScene> posed_;
   std::unique_ptr<renderer::Renderer> renderer_;
 };

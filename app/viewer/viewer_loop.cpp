@@ -5,6 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <limits>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "viewer/camera_control.h"
 #include "viewer/input.h"
@@ -16,6 +21,7 @@ constexpr double kRestSeconds = 0.25;  // after this long without a change the v
 constexpr double kMessageSeconds = 5.0;
 constexpr double kIdleSeconds = 1.0;  // an idle window still looks after its file and its messages
 constexpr int kDrawsAfterEvent = 3;
+constexpr double kShowSeconds = 0.05;  // how old the window may be while a frame is drawn
 
 double secondsSince(ViewerLoop::Clock::time_point start) {
   return std::chrono::duration<double>(ViewerLoop::Clock::now() - start).count();
@@ -30,11 +36,31 @@ bool hasSameThings(const scene::Scene& a, const scene::Scene& b) {
                     isSameName);
 }
 
+/// Loading begins before there is a window; but if none can be opened, nobody should have to end standard
+/// input first.
+std::optional<LoadRequest> findEarlyRequest(const ViewerOptions& options,
+                                            const std::shared_ptr<std::atomic<LoadStep>>& step) {
+  if (options.scene.source == "-") return std::nullopt;
+  LoadRequest request = options.scene;
+  request.step = step;
+  return request;
+}
+
+/// A frame's arrays are as large as the last one's: memory that goes back to the system costs a page fault
+/// for each page of each frame.
+void keepFreedMemory() {
+#ifdef __GLIBC__
+  constexpr int kLargestArrayBytes = 32 << 20;  // more than this glibc does not allow
+  mallopt(M_MMAP_THRESHOLD, kLargestArrayBytes);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+#endif
+}
+
 }  // namespace
 
 ViewerLoop::ViewerLoop(const ViewerOptions& options)
     : options_(options),
-      loader_([&options] { return options.load; }, Window::wake),
+      loader_([&options] { return options.load; }, Window::wake, findEarlyRequest(options, loadStep_)),
       drawer_(makeFrameWork, Window::wake),
       tracer_(makeTruthWork, Window::wake),
       mapper_(makeMapsWork, Window::wake),
@@ -45,7 +71,11 @@ ViewerLoop::ViewerLoop(const ViewerOptions& options)
   model_.view.variant = options.variant;
   model_.view.frame = options.frame;
   model_.view.exposure = options.exposure;
-  load(options.scene);
+  model_.loadStep = loadStep_;
+  model_.loadStart = start_;
+  model_.loadingName = std::filesystem::path(options.scene.source).filename().string();
+  model_.isLoading = true;
+  if (options.scene.source == "-") load(options.scene);
 }
 
 void ViewerLoop::run() {
@@ -64,7 +94,13 @@ void ViewerLoop::run() {
     drawPicture(model_, pictures_, windowPx_);
     drawPanels(model_, maps_);
     handleInput(model_, window_.takeKeys(), windowPx_);
-    window_.endFrame();
+    if (isWorthShowing()) {
+      window_.endFrame();
+      hasNewPicture_ = false;
+      lastShown_ = Clock::now();
+    } else {
+      window_.dropFrame();
+    }
     advanceTime();
     grantWishes();
     askForFrame();
@@ -79,9 +115,16 @@ void ViewerLoop::run() {
   }
 }
 
+/// A mouse sends a hundred moves a second; drawing the window for each would take a core from the frame that
+/// they ask for.
+bool ViewerLoop::isWorthShowing() const {
+  return hasNewPicture_ || !drawer_.isBusy() || isAtRest() || secondsSince(lastShown_) > kShowSeconds;
+}
+
 double ViewerLoop::waitSeconds() const {
   if (model_.view.isPlaying && !model_.isDrawing) return 0.005;
   if (!isAtRest() || model_.wishes.screenshot) return 0.05;
+  if (model_.isLoading) return 0.1;  // it is shown for how long
   return options_.watch ? 0.5 : kIdleSeconds;
 }
 
@@ -148,6 +191,10 @@ void ViewerLoop::takeScene(LoadResult result) {
     if (!isFirst) model_.view.isPlaying = false;
   }
   model_.loaded = std::move(result);
+  const std::string& surroundings = model_.loaded.request.environment;
+  if (!surroundings.empty() && std::find(model_.environments.begin(), model_.environments.end(),
+                                         surroundings) == model_.environments.end())
+    model_.environments.push_back(surroundings);
   model_.geometry = geometryOf(model_.loaded.scene);
   model_.geometryState = {};
   if (isFirst && options_.session) restoreSession(*options_.session, model_.view);
@@ -176,6 +223,7 @@ void ViewerLoop::takeFrame(FrameResult result) {
   if (result.request.sceneCamera && result.request.sceneCamera == model_.view.sceneCamera)
     model_.view.camera = result.request.camera;
   pictures_.method.set(result.picture);
+  hasNewPicture_ = true;
   model_.frame = std::move(result);
   drawsLeft_ = std::max(drawsLeft_, 1);
   if (!model_.frame.request.options.withSeen)
@@ -220,6 +268,7 @@ bool ViewerLoop::isAtRest() const {
 }
 
 void runViewer(const ViewerOptions& options) {
+  keepFreedMemory();
   ViewerLoop(options).run();
 }
 

@@ -54,10 +54,11 @@ class ViewerLoop {
   void askForTruth();
   void askForMaps();
   void askForElsewhere();
-  void load(const LoadRequest& request);
+  void load(LoadRequest request);
   void tell(const std::string& message, bool isError = false);
   [[nodiscard]] double waitSeconds() const;
   [[nodiscard]] bool isAtRest() const;
+  [[nodiscard]] bool isWorthShowing() const;
   /// True when the frame shown is the current view in full.
   [[nodiscard]] bool isFrameSettled() const {
     return model_.frame.frame && model_.frame.request.view == view_ && model_.frame.request.options.withSeen;
@@ -65,7 +66,9 @@ class ViewerLoop {
 
   const ViewerOptions& options_;
   Clock::time_point start_ = Clock::now();
+  WindowSystem windowSystem_;  // before the workers: no need to load anything where there is no display
   // Workers outlive the window: it is gone at once when it is closed, however long the work in hand takes.
+  std::shared_ptr<std::atomic<LoadStep>> loadStep_ = std::make_shared<std::atomic<LoadStep>>();
   LoadWorker loader_;
   FrameWorker drawer_;
   TruthWorker tracer_;
@@ -76,7 +79,8 @@ class ViewerLoop {
   Model model_;
   MovingResolution moving_;
   WatchedFile watched_;
-  Clock::time_point lastChange_{}, messageTime_{}, lastAdvance_{};
+  Clock::time_point lastChange_{}, messageTime_{}, lastAdvance_{}, lastShown_{};
+  bool hasNewPicture_ = false;                      ///< that the window does not show yet
   std::optional<Clock::time_point> oldestUnasked_;  ///< change that no frame was asked for yet
   std::uint64_t view_ = 1;
   bool isFirstInFull_ = false;  ///< a picture in full has been shown

@@ -9,14 +9,17 @@
 #include "catoptric/core/file.h"
 #include "catoptric/core/image_io.h"
 #include "viewer/camera_control.h"
+#include "viewer/environment_panel.h"
 #include "viewer/inside_panel.h"
 #include "viewer/viewer_loop.h"
 
 namespace catoptric::viewer {
 namespace {
 
-bool isEnvironmentFile(const std::string& file) {
-  return file.ends_with(".hdr") || file.ends_with(".exr") || file.ends_with(".HDR") || file.ends_with(".EXR");
+/// A coarse picture bears longer edges: how many times the error bound of a picture in full, on its own
+/// pixels.
+double findMovingError(double scale) {
+  return scale <= 0.5 ? 4 : scale < 1 ? 2 : 1;
 }
 
 }  // namespace
@@ -36,9 +39,12 @@ void ViewerLoop::openDropped() {
   }
 }
 
-void ViewerLoop::load(const LoadRequest& request) {
-  loader_.ask(request);
+void ViewerLoop::load(LoadRequest request) {
+  request.step = loadStep_;
   model_.isLoading = true;
+  model_.loadStart = Clock::now();
+  model_.loadingName = std::filesystem::path(request.source).filename().string();
+  loader_.ask(std::move(request));
 }
 
 void ViewerLoop::tell(const std::string& message, bool isError) {
@@ -113,6 +119,7 @@ void ViewerLoop::askForFrame() {
   request.view = view_;
   request.changed = oldestUnasked_.value_or(lastChange_);
   request.scale = inFull ? 1.0 : moving_.scale();
+  request.options.maxErrorPx *= inFull ? 1.0 : findMovingError(request.scale);
   request.options.withSeen = withSeen;
   request.options.widthPx = std::max(1, int(request.options.widthPx * request.scale));
   request.options.heightPx = std::max(1, int(request.options.heightPx * request.scale));

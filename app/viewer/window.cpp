@@ -3,6 +3,7 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <dlfcn.h>
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_opengl3.h>
@@ -10,6 +11,8 @@
 
 #include <chrono>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <mutex>
 #include <utility>
 
@@ -29,10 +32,25 @@ void onGlfwError(int, const char* text) {
   lastGlfwError() = text;
 }
 
-[[noreturn]] void throwUnavailable() {
+[[noreturn]] void throwUnavailable(const std::string& needs = {}) {
   throw core::Error(
-      "window.unavailable", "no window can be opened: " + lastGlfwError(), {},
+      "window.unavailable", "no window can be opened: " + needs + lastGlfwError(), {},
       "run it in a graphical session, or draw to a file: catoptric render SCENE -o picture.png");
+}
+
+/// Xlib calls this when the display's server is gone, and ends the process when it returns.
+int onDisplayLost(void*) {
+  std::fputs("catoptric: error: the connection to the display was lost\n", stderr);
+  std::_Exit(1);  // not exit(): threads are at work
+}
+
+/// Where GLFW has loaded Xlib.
+void watchDisplay() {
+  void* xlib = dlopen("libX11.so.6", RTLD_NOW | RTLD_NOLOAD);
+  if (xlib == nullptr) return;
+  using Handler = int (*)(void*);
+  if (auto* const set = reinterpret_cast<Handler (*)(Handler)>(dlsym(xlib, "XSetIOErrorHandler")))
+    set(onDisplayLost);
 }
 
 /// Other threads wake the window while it may be closing.
@@ -70,18 +88,13 @@ struct Window::Impl {
   }
 
   void open(const std::string& title, int widthPx, int heightPx) {
-    glfwSetErrorCallback(onGlfwError);
-    if (!glfwInit()) throwUnavailable();
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     window = glfwCreateWindow(widthPx, heightPx, title.c_str(), nullptr, nullptr);
-    if (!window) {
-      glfwTerminate();
-      throwUnavailable();
-    }
+    if (!window) throwUnavailable("it needs OpenGL 3.3: ");
     glfwMakeContextCurrent(window);
     glfwSwapInterval(1);
     glfwSetWindowUserPointer(window, this);
@@ -89,6 +102,16 @@ struct Window::Impl {
     glfwSetKeyCallback(window, onKey);  // before ImGui, which calls it in turn
   }
 };
+
+WindowSystem::WindowSystem() {
+  glfwSetErrorCallback(onGlfwError);
+  if (!glfwInit()) throwUnavailable();
+  watchDisplay();
+}
+
+WindowSystem::~WindowSystem() {
+  glfwTerminate();
+}
 
 Window::Window(const std::string& title, int widthPx, int heightPx) : impl_(std::make_unique<Impl>()) {
   impl_->open(title, widthPx, heightPx);
@@ -102,7 +125,7 @@ Window::Window(const std::string& title, int widthPx, int heightPx) : impl_(std:
     lastGlfwError() = "its OpenGL functions could not be loaded";
     ImGui_ImplGlfw_Shutdown();
     ImGui::DestroyContext();
-    glfwTerminate();
+    glfwDestroyWindow(impl_->window);
     throwUnavailable();
   }
   setOpen(true);
@@ -114,7 +137,6 @@ Window::~Window() {
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
   glfwDestroyWindow(impl_->window);
-  glfwTerminate();
 }
 
 bool Window::shouldClose() const {
@@ -158,6 +180,10 @@ void Window::endFrame() {
   glClear(GL_COLOR_BUFFER_BIT);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   glfwSwapBuffers(impl_->window);
+}
+
+void Window::dropFrame() {
+  ImGui::EndFrame();
 }
 
 ivec2 Window::sizePx() const {

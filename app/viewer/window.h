@@ -16,9 +16,19 @@ struct KeyPress {
   bool control = false, shift = false;
 };
 
-class Window {
+/// The connection to the display; needed as long as there is a window.
+class WindowSystem {
  public:
   /// Throws core::Error("window.unavailable") where there is no display, with what to do.
+  WindowSystem();
+  ~WindowSystem();
+  WindowSystem(const WindowSystem&) = delete;
+  WindowSystem& operator=(const WindowSystem&) = delete;
+};
+
+class Window {
+ public:
+  /// Throws core::Error("window.unavailable") where the display has no OpenGL 3.3, with what to do.
   Window(const std::string& title, int widthPx, int heightPx);
   ~Window();
   Window(const Window&) = delete;
@@ -35,6 +45,8 @@ class Window {
   /// Between the two, ImGui takes calls.
   void beginFrame();
   void endFrame();
+  /// Instead of endFrame(): input was taken, the window stays as it is.
+  void dropFrame();
   [[nodiscard]] ivec2 sizePx() const;  ///< of the picture area, pixels of the framebuffer
 
   /// Keys that were pressed since the last call; ImGui alone would miss one that is up again before the next

@@ -20,8 +20,12 @@ class Worker {
 
   /// `makeWork` is called on the thread, and what it makes is destroyed there too: an OpenGL context belongs
   /// to one thread. `wake` is called, on the thread, after each piece of work.
-  Worker(std::function<Work()> makeWork, std::function<void()> wake)
-      : makeWork_(std::move(makeWork)), wake_(std::move(wake)), thread_([this] { run(); }) {}
+  Worker(std::function<Work()> makeWork, std::function<void()> wake,
+         std::optional<Request> first = std::nullopt)
+      : makeWork_(std::move(makeWork)),
+        wake_(std::move(wake)),
+        request_(std::move(first)),
+        thread_([this] { run(); }) {}
 
   /// Waits for the work in hand.
   ~Worker() {

@@ -128,6 +128,31 @@ class WithDisplay(WindowTest):
         self.assertEqual(viewer.end(), 0, viewer.said())
         self.assertEqual(viewer.count("first picture"), 0)
 
+    def test_closed_while_it_bakes_and_traces(self):
+        viewer = self.view("scene.gltf", "--size", "320x240", "--method", "morphing")
+        viewer.wait_for_window()
+        window_support.wait_for(lambda: viewer.count("reflectors"), "scene")  # rays are traced from now on
+        self.close(viewer)
+        viewer = self.view("scene.gltf", "--size", "320x240")
+        viewer.wait_for_window()
+        viewer.after("truth: pass 1", lambda: viewer.do("key", "s"))
+        self.close(viewer)
+
+    def test_no_opengl_and_a_display_that_goes(self):
+        os.environ["MESA_GL_VERSION_OVERRIDE"] = "2.1"
+        self.addCleanup(os.environ.pop, "MESA_GL_VERSION_OVERRIDE", None)
+        viewer = self.view("scene.gltf")
+        self.assertEqual(viewer.end(), 1, viewer.said())
+        self.assertEqual(viewer.count("catoptric: error: no window can be opened: it needs OpenGL 3.3"), 1, viewer.said())
+        os.environ.pop("MESA_GL_VERSION_OVERRIDE")
+        with window_support.Display() as display:
+            viewer = window_support.Viewer(self.folder, display, "scene.gltf", "--size", "320x240")
+            self.addCleanup(viewer.kill)
+            viewer.wait_for_window()
+            viewer.wait_for_line(SETTLED)
+        self.assertEqual(viewer.end(), 1, viewer.said())
+        self.assertEqual(viewer.count("catoptric: error: the connection to the display was lost"), 1, viewer.said())
+
     def test_random_inputs(self):
         chance = random.Random(6)
         self.write("scene.gltf", json.dumps(motion_test.make_moving()).encode())

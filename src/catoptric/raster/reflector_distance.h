@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "catoptric/core/math.h"
@@ -18,20 +19,28 @@ class ReflectorDistance {
   /// `reflectsBehind`: no point counts as lying behind it.
   ReflectorDistance(const scene::WorldGeometry& geometry, const scene::Part& part, bool reflectsBehind) {
     std::vector<vec3> surface, normals;
+    std::vector<std::uint8_t> isListed(part.vertexCount, 0);
+    vec3 sum(0);
+    const std::uint32_t* corner = geometry.indices.data() + part.firstIndex;
     for (std::uint32_t i = 0; i < part.indexCount; ++i) {
-      surface.push_back(geometry.positions[geometry.indices[part.firstIndex + i]]);
-      normals.push_back(geometry.normals[geometry.indices[part.firstIndex + i]]);
+      const std::uint32_t v = corner[i];
+      sum += geometry.normals[v];
+      if (std::exchange(isListed[v - part.firstVertex], 1) != 0) continue;
+      surface.push_back(geometry.positions[v]);
+      normals.push_back(geometry.normals[v]);
     }
     if (surface.empty()) return;
-    for (std::size_t i = 0; i + 2 < part.indexCount; i += 3) {
-      for (int k = 0; k < 3; ++k)
-        longestEdge_ = std::max(longestEdge_, glm::length(surface[i + (k + 1) % 3] - surface[i + k]));
-      surface.push_back((surface[i] + surface[i + 1] + surface[i + 2]) / 3.0f);
-      normals.push_back((normals[i] + normals[i + 1] + normals[i + 2]) / 3.0f);
+    for (std::uint32_t i = 0; i + 2 < part.indexCount; i += 3) {
+      const vec3 &a = geometry.positions[corner[i]], &b = geometry.positions[corner[i + 1]],
+                 &c = geometry.positions[corner[i + 2]];
+      longestEdge_ = std::max({longestEdge_, glm::length(b - a), glm::length(c - b), glm::length(a - c)});
+      surface.push_back((a + b + c) / 3.0f);
+      normals.push_back(
+          (geometry.normals[corner[i]] + geometry.normals[corner[i + 1]] + geometry.normals[corner[i + 2]]) /
+          3.0f);
+      sum += normals.back();
     }
-    vec3 sum(0);
-    for (const vec3& n : normals) sum += n;
-    turnsRound_ = glm::length(sum) < kTurned * float(normals.size());
+    turnsRound_ = glm::length(sum) < kTurned * float(part.indexCount + part.indexCount / 3);
     pickSamples(surface, normals);
     focalLength_ = float(findFocalLength(geometry, part));
     hasBack_ = !reflectsBehind;

@@ -23,6 +23,10 @@
 #include "catoptric/scene/scene.h"
 #include "catoptric/scene/world_geometry.h"
 
+namespace catoptric::gl {
+class Context;
+}
+
 namespace catoptric::renderer {
 
 /// How reflections are made. None: mirrors show the environment only, as they do after the last bounce.
@@ -118,12 +122,16 @@ struct MethodChoice {
   std::string analytic;  ///< why solver Analytic cannot serve it; empty where it can
 };
 
-/// Owns the GL context (made on first need) and all buffers of one scene. Not thread-safe.
+/// A GL context that renderers on this thread may share, one after the other. Worth making before the scene
+/// is there: loading a driver takes a while. Throws core::Error("gl.unavailable").
+[[nodiscard]] std::shared_ptr<gl::Context> makeSharedContext();
+
+/// Owns the GL context (made on first need, or shared) and all buffers of one scene. Not thread-safe.
 class Renderer {
  public:
   /// Arguments must outlive the renderer.
   Renderer(const scene::Scene& scene, const scene::WorldGeometry& geometry,
-           const scene::Environment& environment);
+           const scene::Environment& environment, std::shared_ptr<gl::Context> context = nullptr);
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;

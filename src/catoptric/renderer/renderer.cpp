@@ -11,15 +11,13 @@ struct Renderer::Impl {
   const scene::Scene& scene;
   const scene::WorldGeometry& geometry;
   const scene::Environment& environment;
-  std::unique_ptr<gl::Context> context;
+  std::shared_ptr<gl::Context> context;
   std::unique_ptr<RasterFrame> raster;  // after the context: its buffers go first
   std::unique_ptr<reference::RayTracer> tracer;
   reference::TraceResult traced;
 
   gl::Context& getContext() {
-    if (!context)
-      context = std::make_unique<gl::Context>(
-          gl::ContextOptions{.debug = std::getenv("CATOPTRIC_GL_DEBUG") != nullptr});
+    if (!context) context = makeSharedContext();
     return *context;
   }
   reference::RayTracer& getTracer() {
@@ -45,9 +43,14 @@ struct Renderer::Impl {
   }
 };
 
+std::shared_ptr<gl::Context> makeSharedContext() {
+  return std::make_shared<gl::Context>(
+      gl::ContextOptions{.debug = std::getenv("CATOPTRIC_GL_DEBUG") != nullptr});
+}
+
 Renderer::Renderer(const scene::Scene& scene, const scene::WorldGeometry& geometry,
-                   const scene::Environment& environment)
-    : impl_(new Impl{scene, geometry, environment, nullptr, nullptr, nullptr, {}}) {}
+                   const scene::Environment& environment, std::shared_ptr<gl::Context> context)
+    : impl_(new Impl{scene, geometry, environment, std::move(context), nullptr, nullptr, {}}) {}
 
 Renderer::~Renderer() {
   if (impl_->context) impl_->context->makeCurrent();

@@ -131,15 +131,22 @@ vec3 groundRadiance(float y) {
   return glm::mix(ground, kHorizon * 0.80f, std::exp(y / 0.025f));
 }
 
-vec3 skyRadiance(const vec3& d, const vec3& toSun, float radiansPerTexel) {
-  if (d.y < 0.0f) {
-    return groundRadiance(d.y);
-  }
+/// What all directions of one height have in common.
+struct SkyRow {
+  vec3 air;
+  float sunFade, haze;
+};
+
+SkyRow makeSkyRow(float height) {
+  return {airRadiance(height), smoothStep(0.0f, 0.05f, height), std::exp(-height / 0.02f)};
+}
+
+/// Of a direction that does not go down.
+vec3 skyRadiance(const vec3& d, const SkyRow& row, const vec3& toSun, float radiansPerTexel) {
   const float cosToSun = glm::dot(d, toSun);
-  const vec3 clear = airRadiance(d.y) + sunRadiance(cosToSun) * smoothStep(0.0f, 0.05f, d.y);
+  const vec3 clear = row.air + sunRadiance(cosToSun) * row.sunFade;
   const vec3 horizonHaze = kHorizon * 0.80f;
-  return glm::mix(coverByClouds(clear, d, toSun, cosToSun, radiansPerTexel), horizonHaze,
-                  std::exp(-d.y / 0.02f));
+  return glm::mix(coverByClouds(clear, d, toSun, cosToSun, radiansPerTexel), horizonHaze, row.haze);
 }
 
 }  // namespace
@@ -162,9 +169,14 @@ core::ImageRgbF makeSkyImage(int widthPx, int heightPx) {
       const double theta = glm::pi<double>() * (double(y) + 0.5) / heightPx;
       const float sine = float(std::sin(theta)), cosine = float(std::cos(theta));
       vec3* row = &image.at(0, int(y));
+      if (cosine < 0.0f) {
+        std::fill_n(row, azimuths.size(), groundRadiance(cosine));
+        continue;
+      }
+      const SkyRow common = makeSkyRow(cosine);
       for (std::size_t x = 0; x < azimuths.size(); ++x)
-        row[x] =
-            skyRadiance(vec3(sine * azimuths[x].x, cosine, -sine * azimuths[x].y), toSun, radiansPerTexel);
+        row[x] = skyRadiance(vec3(sine * azimuths[x].x, cosine, -sine * azimuths[x].y), common, toSun,
+                             radiansPerTexel);
     }
   });
   return image;

@@ -12,7 +12,6 @@ namespace catoptric::scene::built_in {
 namespace {
 
 constexpr double kPi = 3.141592653589793;
-constexpr int kLampSamples = 24;
 
 /// Lambert's form factor of a polygon seen from `point` with normal +y; positive when it is wound
 /// counter-clockwise seen from the point.
@@ -28,11 +27,6 @@ double polygonFormFactor(const dvec3& point, std::span<const dvec3> polygon) {
   return sum / (2 * kPi);
 }
 
-bool looksAt(const dvec3& point, std::span<const dvec3> face) {
-  const dvec3 normal = glm::cross(face[1] - face[0], face[2] - face[0]);
-  return glm::dot(point - face[0], normal) > 0;
-}
-
 /// No more of the hemisphere than this is worth the exact formula.
 constexpr double kNegligibleShare = 0.001;
 
@@ -41,8 +35,9 @@ double coveredShare(const dvec3& point, const FacedSolid& solid) {
   if (solid.bounds.radius * solid.bounds.radius < kNegligibleShare * glm::dot(d, d)) return 0;
   double sum = 0;
   bool isInside = true;
-  for (const std::vector<dvec3>& face : solid.faces) {
-    if (!looksAt(point, face)) continue;
+  for (std::size_t i = 0; i < solid.faces.size(); ++i) {
+    const std::vector<dvec3>& face = solid.faces[i];
+    if (glm::dot(point - face[0], solid.normals[i]) <= 0) continue;
     isInside = false;
     sum += std::abs(polygonFormFactor(point, face));
   }
@@ -66,9 +61,9 @@ bool isHidden(const dvec3& from, const dvec3& to, const BallSolid& ball) {
 bool isHidden(const dvec3& from, const dvec3& to, const FacedSolid& solid) {
   if (!isHidden(from, to, solid.bounds)) return false;
   double enter = 1e-6, leave = 1;
-  for (const std::vector<dvec3>& face : solid.faces) {
-    const dvec3 n = glm::cross(face[1] - face[0], face[2] - face[0]);
-    const double height = glm::dot(from - face[0], n), rate = glm::dot(to - from, n);
+  for (std::size_t i = 0; i < solid.faces.size(); ++i) {
+    const dvec3& n = solid.normals[i];
+    const double height = glm::dot(from - solid.faces[i][0], n), rate = glm::dot(to - from, n);
     if (std::abs(rate) < 1e-15) {
       if (height > 0) return false;
     } else if (rate < 0) {
@@ -104,8 +99,10 @@ void BakedLight::addRings(const std::vector<dvec3>& bottom, const std::vector<dv
   solid.faces.emplace_back(bottom.rbegin(), bottom.rend());
   if (!isPointed) solid.faces.push_back(top);
   core::Box box;
-  for (const auto& face : solid.faces)
+  for (const auto& face : solid.faces) {
+    solid.normals.push_back(glm::cross(face[1] - face[0], face[2] - face[0]));
     for (const dvec3& p : face) box.add(p);
+  }
   solid.bounds = {box.centre(), box.radius()};
   solids_.push_back(std::move(solid));
 }
@@ -141,18 +138,36 @@ double BakedLight::openness(const dvec3& point) const {
   return open;
 }
 
-double BakedLight::lampShare(const dvec3& point) const {
-  int seen = 0;
+void BakedLight::setLamp(const dvec3& position, double radius) {
+  lamp_ = position;
+  lampRadius_ = radius;
   for (int i = 0; i < kLampSamples; ++i) {
     // Vogel's spiral over a disc that lies level: good enough for lamps overhead.
-    const double radius = lampRadius_ * std::sqrt((i + 0.5) / kLampSamples), angle = 2.399963 * i;
-    const dvec3 sample = lamp_ + dvec3(radius * std::cos(angle), 0, radius * std::sin(angle));
-    const auto hides = [&](const auto& solid) { return isHidden(point, sample, solid); };
-    if (std::none_of(balls_.begin(), balls_.end(), hides) &&
-        std::none_of(solids_.begin(), solids_.end(), hides))
-      ++seen;
+    const double away = radius * std::sqrt((i + 0.5) / kLampSamples), angle = 2.399963 * i;
+    lampSamples_[std::size_t(i)] = lamp_ + dvec3(away * std::cos(angle), 0, away * std::sin(angle));
   }
-  return double(seen) / kLampSamples;
+}
+
+/// False only where the ball meets no line from the point to a sample: at share t of the way these lie within
+/// t lampRadius_ of the line to the lamp's centre.
+bool BakedLight::mayHideLamp(const dvec3& point, const BallSolid& ball) const {
+  const double lampDistance = glm::distance(lamp_, point) - lampRadius_;
+  if (lampDistance <= 0) return true;
+  const double farthest = std::min(1.0, glm::distance(ball.centre, point) / lampDistance);
+  return isHidden(point, lamp_, BallSolid{ball.centre, 1.0001 * (ball.radius + farthest * lampRadius_)});
+}
+
+double BakedLight::lampShare(const dvec3& point) const {
+  std::array<bool, kLampSamples> isDark{};
+  const auto hide = [&](const auto& solid) {
+    for (std::size_t i = 0; i < isDark.size(); ++i)
+      isDark[i] = isDark[i] || isHidden(point, lampSamples_[i], solid);
+  };
+  for (const BallSolid& ball : balls_)
+    if (mayHideLamp(point, ball)) hide(ball);
+  for (const FacedSolid& solid : solids_)
+    if (mayHideLamp(point, solid.bounds)) hide(solid);
+  return double(std::count(isDark.begin(), isDark.end(), false)) / kLampSamples;
 }
 
 std::function<double(dvec2)> BakedLight::bake(const dvec2& lower, const dvec2& upper, double height,

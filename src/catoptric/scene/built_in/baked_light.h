@@ -14,6 +14,8 @@
 // point and solid.
 #pragma once
 
+#include <array>
+#include <functional>
 #include <vector>
 
 #include "catoptric/core/image.h"
@@ -29,11 +31,13 @@ struct BallSolid {
 /// A convex polyhedron: faces counter-clockwise seen from outside, and a ball around it.
 struct FacedSolid {
   std::vector<std::vector<dvec3>> faces;
+  std::vector<dvec3> normals;  ///< of the faces, outwards, any length
   BallSolid bounds;
 };
 
 class BakedLight {
  public:
+  BakedLight() { setLamp({0, 100, 0}, 1); }
   void addBall(const dvec3& centre, double radius) { balls_.push_back({centre, radius}); }
   /// Upright box, turned around y.
   void addBox(const dvec3& centre, const dvec3& size, double turnRadians = 0);
@@ -41,10 +45,7 @@ class BakedLight {
   void addColumn(const dvec3& base, double bottomRadius, double topRadius, double height);
 
   /// Direction to the lamp's centre, or its position; the lamp is a ball of the given radius.
-  void setLamp(const dvec3& position, double radius) {
-    lamp_ = position;
-    lampRadius_ = radius;
-  }
+  void setLamp(const dvec3& position, double radius);
 
   /// Share of the cosine-weighted upper hemisphere that is open, 0..1.
   [[nodiscard]] double openness(const dvec3& point) const;
@@ -63,8 +64,12 @@ class BakedLight {
   void addRings(const std::vector<dvec3>& bottom, const std::vector<dvec3>& top);
 
   std::vector<FacedSolid> solids_;
-  dvec3 lamp_{0, 100, 0};
-  double lampRadius_ = 1;
+  static constexpr int kLampSamples = 24;
+  [[nodiscard]] bool mayHideLamp(const dvec3& point, const BallSolid& ball) const;
+
+  dvec3 lamp_{0};
+  double lampRadius_ = 0;
+  std::array<dvec3, kLampSamples> lampSamples_{};
 };
 
 /// Darkening towards the edges of a unit square of the given size in metres, where walls stand: 1 in the

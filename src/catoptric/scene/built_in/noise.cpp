@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "catoptric/scene/built_in/noise.h"
 
-#include <cmath>
-
 namespace catoptric::scene::built_in {
 namespace {
 
@@ -14,6 +12,12 @@ int wrap(int i, int period) {
 
 int next(int i, int period) {
   return i + 1 == period ? 0 : i + 1;
+}
+
+/// std::floor is a function call on the oldest processors that we build for.
+int floorToInt(double x) {
+  const int truncated = int(x);
+  return truncated > x ? truncated - 1 : truncated;
 }
 
 double fade(double t) {
@@ -38,10 +42,10 @@ double hashToUnit(int x, int y, std::uint32_t seed) {
 }
 
 double periodicNoise(const dvec2& p, const ivec2& period, std::uint32_t seed) {
-  const double cellX = std::floor(p.x), cellY = std::floor(p.y);
+  const int cellX = floorToInt(p.x), cellY = floorToInt(p.y);
   const double fx = fade(p.x - cellX), fy = fade(p.y - cellY);
-  const int x0 = wrap(int(cellX), period.x), x1 = next(x0, period.x);
-  const int y0 = wrap(int(cellY), period.y), y1 = next(y0, period.y);
+  const int x0 = wrap(cellX, period.x), x1 = next(x0, period.x);
+  const int y0 = wrap(cellY, period.y), y1 = next(y0, period.y);
   const double a = hash(x0, y0, seed), b = hash(x1, y0, seed), c = hash(x0, y1, seed), d = hash(x1, y1, seed);
   const double top = a + (b - a) * fx, bottom = c + (d - c) * fx;
   return (top + (bottom - top) * fy) * kToUnit;

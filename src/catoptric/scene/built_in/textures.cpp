@@ -28,7 +28,8 @@ double distanceToGrid(double x, double step) {
 }
 
 int floorInt(double x) {
-  return int(std::floor(x));
+  const int truncated = int(x);
+  return truncated > x ? truncated - 1 : truncated;
 }
 
 std::uint8_t toSrgbByte(float linear) {
@@ -41,7 +42,7 @@ std::uint8_t toSrgbByte(float linear) {
     }
     return values;
   }();
-  return table[std::size_t(std::lround(std::sqrt(std::clamp(linear, 0.0f, 1.0f)) * 4096.0f))];
+  return table[std::size_t(double(std::sqrt(std::clamp(linear, 0.0f, 1.0f)) * 4096.0f) + 0.5)];
 }
 
 }  // namespace
