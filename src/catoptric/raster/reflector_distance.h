@@ -40,7 +40,8 @@ class ReflectorDistance {
           3.0f);
       sum += normals.back();
     }
-    turnsRound_ = glm::length(sum) < kTurned * float(part.indexCount + part.indexCount / 3);
+    const std::uint32_t triangleCount = part.indexCount / 3;
+    turnsRound_ = glm::length(sum) < kTurned * float(part.indexCount + triangleCount);
     pickSamples(surface, normals);
     focalLength_ = float(findFocalLength(geometry, part));
     hasBack_ = !reflectsBehind;
