@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Define FLAT_CONSTANTS (raster/surface_pass.h: addConstantsDefine()): a vertex shader hands constants on to its fragments in flat
+// Define FLAT_CONSTANTS (raster/surface_pass.h: addConstantsDefines()): a vertex shader hands constants on to its fragments in flat
 // varyings. Mesa's llvmpipe fetches every component of a uniform for each pixel of its vectors, with bounds checks; a
 // flat varying costs one load for all of them.
 
@@ -8,6 +8,9 @@
 flat out vec4 v_material[6];    // the block up to the first slot's rows
 flat out vec4 v_irradiance[7];  // 27 components
 flat out vec4 v_lobes;
+#if LIGHTS > 0
+flat out vec4 v_lights[8];      // the first two
+#endif
 
 void handOnConstants() {
   v_material[0] = m_baseColor;
@@ -24,4 +27,7 @@ void handOnConstants() {
   v_irradiance[5] = vec4(u_irradiance[6].z, u_irradiance[7]);
   v_irradiance[6] = vec4(u_irradiance[8], 0.0f);
   v_lobes = u_lobes;
+#if LIGHTS > 0
+  for (int i = 0; i < 8; ++i) v_lights[i] = u_lights[min(i, 4 * LIGHTS - 1)];
+#endif
 }

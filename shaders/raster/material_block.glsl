@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A material's constants, as raster/scene_buffers.cpp: MaterialBlock packs them, and those of the part that has it.
+// What shading takes that is the same at all fragments of a draw: a material's constants, as raster/scene_buffers.cpp:
+// MaterialBlock packs them, those of the part that has it, lights and irradiance. Define LIGHTS: how many lights there are.
 
 layout(std140) uniform Material {
   vec4 m_baseColor;
@@ -10,4 +11,10 @@ layout(std140) uniform Material {
 };
 
 uniform vec4 u_lobes;     // of a reflector: reflectivity, clearcoat, index of refraction (0 = no refractor); transmission
+#ifndef LIGHTS
+#define LIGHTS 16
+#endif
+#if LIGHTS > 0
+uniform vec4 u_lights[4 * LIGHTS];  // color + kind, position + range, direction + cosInner, cosOuter
+#endif
 uniform vec3 u_irradiance[9];  // of the environment: spherical harmonics of irradiance / pi

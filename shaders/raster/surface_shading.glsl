@@ -3,13 +3,10 @@
 // by every pass that shades surfaces; the ray tracer has the same rules in reference/surface_shading.
 
 #include "raster/irradiance_lookup.glsl"
-
-const int kMaxLights = 16;
+#include "raster/lights.glsl"
 
 uniform uint u_objectWord;        // (object + 1) | shell << 31
 uniform uint u_reflectorWord;     // (reflector + 1) | chain << 16
-uniform int u_lightCount;
-uniform vec4 u_lights[4 * kMaxLights];  // color+kind, position+range, direction+cosInner, cosOuter
 
 /// A point to be shaded. Changes (Dx, Dy) are per pixel of the target.
 struct SurfacePoint {
@@ -79,18 +76,6 @@ vec3 shadingNormal(SurfacePoint p) {
   return p.isFront ? n : -n;
 }
 
-PunctualLight readLight(int i) {
-  PunctualLight light;
-  light.color = u_lights[4 * i].xyz;
-  light.kind = int(u_lights[4 * i].w);
-  light.position = u_lights[4 * i + 1].xyz;
-  light.range = u_lights[4 * i + 1].w;
-  light.direction = u_lights[4 * i + 2].xyz;
-  light.cosInner = u_lights[4 * i + 2].w;
-  light.cosOuter = u_lights[4 * i + 3].x;
-  return light;
-}
-
 /// ids.r of a pixel whose mirrored or refracted ray goes on inside a refractor's solid. `wasInside`: so did the ray that
 /// met this point.
 uint objectWordBehind(ShadedPoint shaded, bool isFront, bool wasInside) {
@@ -127,8 +112,7 @@ ShadedPoint shadePoint(SurfacePoint p, vec3 normal, vec3 baseColor) {
   shaded.radiance = s.baseColor;  // unlit
   shaded.weight = vec3(0.0f);
   if (m_more.y > 0.5f) return shaded;
-  vec3 direct = vec3(0.0f);
-  for (int i = 0; i < u_lightCount; ++i) direct += shadeLight(readLight(i), s);
+  vec3 direct = shadeLights(s);
   vec3 prefiltered = s.reflectivity > 0.0f ? vec3(0.0f) : lookUpPrefiltered(shaded.mirrorDirection, s.roughness);
   shaded.radiance = shadeSurface(s, direct, lookUpIrradiance(s.normal), prefiltered);
   if ((u_reflectorWord & 0xffffu) != 0u) shaded.weight = s.eta > 0.0f ? refractionWeight(s) : mirrorWeight(s);

@@ -14,7 +14,7 @@
 namespace catoptric::raster {
 namespace {
 
-constexpr int kMaxLights = 16;  // shaders/raster/surface.frag
+constexpr int kMaxLights = 16;
 
 /// std140 image of the block in shaders/raster/material.glsl.
 struct MaterialBlock {
@@ -167,11 +167,14 @@ void SceneBuffers::bindEnvironment(gl::Program& program) const {
   program.set("u_prefilteredLast", float(scene::kPrefilteredLevels - 1));
 }
 
+int SceneBuffers::lightCount() const {
+  return int(std::min(scene_.lights.size(), std::size_t(kMaxLights)));
+}
+
 void SceneBuffers::bindLights(gl::Program& program) const {
   std::vector<vec4> packed;
-  const std::size_t count = std::min(scene_.lights.size(), std::size_t(kMaxLights));
-  for (std::size_t i = 0; i < count; ++i) {
-    const scene::Light& light = scene_.lights[i];
+  for (int i = 0; i < lightCount(); ++i) {
+    const scene::Light& light = scene_.lights[std::size_t(i)];
     const float kind = light.type == scene::LightType::Directional ? 0.0f
                        : light.type == scene::LightType::Point     ? 1.0f
                                                                    : 2.0f;
@@ -180,7 +183,6 @@ void SceneBuffers::bindLights(gl::Program& program) const {
     packed.emplace_back(light.direction, std::cos(light.innerConeRadians));
     packed.emplace_back(std::cos(light.outerConeRadians), 0.0f, 0.0f, 0.0f);
   }
-  program.set("u_lightCount", int(count));
   program.set("u_lights[0]", packed);
 }
 

@@ -42,6 +42,7 @@ class SceneBuffers {
 
   /// Sets what every shader that includes raster/environment_lookup.glsl needs; the program must be in use.
   void bindEnvironment(gl::Program& program) const;
+  [[nodiscard]] int lightCount() const;  ///< of those that are used
   void bindLights(gl::Program& program) const;
   void bindMaterial(int material) const;
   /// Bit k: the material has its k-th texture (order of Unit).

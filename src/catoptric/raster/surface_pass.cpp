@@ -9,8 +9,9 @@
 
 namespace catoptric::raster {
 
-void addConstantsDefine(std::vector<std::string>& defines) {
-  constexpr int kVaryingComponents = 4 * 23;  // of virtual_object/virtual_surface.vert, which has the most
+void addConstantsDefines(const SceneBuffers& scene, std::vector<std::string>& defines) {
+  defines.push_back("LIGHTS " + std::to_string(scene.lightCount()));
+  constexpr int kVaryingComponents = 4 * 31;  // of virtual_object/virtual_surface.vert, which has the most
   if (gl::isSoftwareContext() && gl::maxVaryingComponents() >= kVaryingComponents)
     defines.emplace_back("FLAT_CONSTANTS");
 }
@@ -60,7 +61,7 @@ void setView(gl::Program& program, const SceneBuffers& scene, const SurfaceView&
 
 }  // namespace
 
-gl::Program& SurfacePass::findProgram(unsigned features) {
+gl::Program& SurfacePass::findProgram(const SceneBuffers& scene, unsigned features) {
   std::unique_ptr<gl::Program>& program = programs_[features];
   if (!program) {
     std::vector<std::string> defines{"TEXTURES " + std::to_string(features & 31u)};
@@ -70,7 +71,7 @@ gl::Program& SurfacePass::findProgram(unsigned features) {
         {kEnvironment, "ENVIRONMENT"}};
     for (const auto& [feature, name] : names)
       if ((features & feature) != 0) defines.emplace_back(name);
-    addConstantsDefine(defines);
+    addConstantsDefines(scene, defines);
     defines.insert(defines.end(), vertexDefines_.begin(), vertexDefines_.end());
     program = std::make_unique<gl::Program>(vertexFile_, "raster/surface.frag", defines);
     program->bindBlock("Material", 0);
@@ -122,7 +123,7 @@ void SurfacePass::drawRanges(const SceneBuffers& scene, const VertexStreams& str
       continue;
     const scene::Material& material = scene.material(part.material);
     const unsigned textures = scene.textureBits(part.material);
-    gl::Program& program = findProgram(textures | features);
+    gl::Program& program = findProgram(scene, textures | features);
     if ((prepared >> textures & 1u) == 0)
       setView(program, scene, view);
     else

@@ -79,7 +79,7 @@ class SurfacePass {
 
   void drawRanges(const SceneBuffers& scene, const VertexStreams& streams, std::span<const DrawRange> ranges,
                   const SurfaceView& view, unsigned features);
-  [[nodiscard]] gl::Program& findProgram(unsigned features);
+  [[nodiscard]] gl::Program& findProgram(const SceneBuffers& scene, unsigned features);
 
   std::string vertexFile_ = "raster/surface.vert";
   std::vector<std::string> vertexDefines_;
@@ -87,9 +87,9 @@ class SurfacePass {
   std::vector<DrawRange> mirrors_, others_;
 };
 
-/// For programs that shade surfaces: how their constants get to the fragments
-/// (raster/hand_on_constants.glsl).
-void addConstantsDefine(std::vector<std::string>& defines);
+/// For programs that shade surfaces of the scene: how many lights there are, and how constants get to the
+/// fragments (raster/hand_on_constants.glsl).
+void addConstantsDefines(const SceneBuffers& scene, std::vector<std::string>& defines);
 /// Sets what raster/surface_shading.glsl needs, for any part; the program must be in use.
 void bindSurfaceShading(gl::Program& program, const SceneBuffers& scene);
 /// And for one part, its material included.

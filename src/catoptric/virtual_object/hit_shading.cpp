@@ -183,7 +183,7 @@ void HitShading::drawRects(std::span<const CoverRect> rects) {
   drawRange(0, rects.size());
 }
 
-gl::Program& HitShading::findProgram(Pass pass, unsigned variant) {
+gl::Program& HitShading::findProgram(const raster::SceneBuffers& scene, Pass pass, unsigned variant) {
   std::unique_ptr<gl::Program>& program = partPrograms_[std::size_t(pass)][variant];
   if (!program) {
     std::vector<std::string> defines{"TEXTURES " + std::to_string(variant & 31u)};
@@ -198,7 +198,7 @@ gl::Program& HitShading::findProgram(Pass pass, unsigned variant) {
     const char* file = pass == Pass::MaskedHits ? "virtual_object/exact_hit.frag"
                        : isVirtual(pass)        ? "virtual_object/virtual_shade.frag"
                                                 : "virtual_object/exact_shade.frag";
-    raster::addConstantsDefine(defines);
+    raster::addConstantsDefines(scene, defines);
     program = std::make_unique<gl::Program>("virtual_object/exact_cover.vert", file, defines);
     program->bindBlock("Material", 0);
   }
@@ -241,7 +241,7 @@ void HitShading::drawVariants(raster::FrameContext& frame, const raster::Chain& 
     unsigned variant =
         frame.scene.textureBits(world.parts[part].material) | triangles_->attributes(part) | output;
     if (world.parts[part].reflector == core::kNoId) variant &= ~unsigned(kEnvironment);
-    gl::Program& program = findProgram(pass, variant);
+    gl::Program& program = findProgram(frame.scene, pass, variant);
     program.use();
     if (!prepared[variant]) {
       raster::bindSurfaceShading(program, frame.scene);

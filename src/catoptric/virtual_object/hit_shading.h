@@ -90,7 +90,7 @@ class HitShading {
   /// Bits of the textures (SceneBuffers::textureBits()), of VertexAttribute and of these.
   enum Target : unsigned { kMirror = 128, kSeen = 256, kEnvironment = 512 };
   static constexpr unsigned kVariants = 1024;
-  [[nodiscard]] gl::Program& findProgram(Pass pass, unsigned variant);
+  [[nodiscard]] gl::Program& findProgram(const raster::SceneBuffers& scene, Pass pass, unsigned variant);
   /// The same as bindInputs() for virtual_shade.frag, which takes its rays from the parent.
   void bindVirtualInputs(gl::Program& program, const raster::Level& parent, const raster::Chain& chain) const;
   void bindHits(gl::Program& program, const raster::Level& parent, const raster::Chain& chain) const;
