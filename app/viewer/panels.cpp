@@ -23,13 +23,15 @@ void showText(const std::string& text) {
   ImGui::TextUnformatted(text.c_str());
 }
 
-bool drawMerge(renderer::FrameOptions& frame) {
+/// Picks one of an enumeration's values up to `last`; true if it is another one now.
+template <class Choice, class NameOf>
+bool drawChoice(const char* label, Choice& chosen, Choice last, const NameOf& nameOf) {
   bool changed = false;
-  if (!ImGui::BeginCombo("merge", std::string(renderer::mergeName(frame.merge)).c_str())) return false;
-  for (int i = 0; i <= int(renderer::Merge::Texture); ++i) {
-    const auto merge = renderer::Merge(i);
-    if (!ImGui::Selectable(std::string(renderer::mergeName(merge)).c_str(), merge == frame.merge)) continue;
-    frame.merge = merge;
+  if (!ImGui::BeginCombo(label, std::string(nameOf(chosen)).c_str())) return false;
+  for (int i = 0; i <= int(last); ++i) {
+    const auto choice = Choice(i);
+    if (!ImGui::Selectable(std::string(nameOf(choice)).c_str(), choice == chosen)) continue;
+    chosen = choice;
     changed = true;
   }
   ImGui::EndCombo();
@@ -56,7 +58,11 @@ void drawMethod(Model& model) {
     view.frame.maxErrorPx = std::clamp(double(maxErrorPx), 0.01, 1e6);
     changed = true;
   }
-  if (renderer::hasMerges(model.variants[view.variant].method)) changed |= drawMerge(view.frame);
+  const app::MethodVariant& variant = model.variants[view.variant];
+  if (renderer::hasSolvers(variant.method) && renderer::hasVertexShader(variant.solver))
+    changed |= drawChoice("backend", view.frame.backend, renderer::Backend::Gpu, renderer::backendName);
+  if (renderer::hasMerges(variant.method))
+    changed |= drawChoice("merge", view.frame.merge, renderer::Merge::Texture, renderer::mergeName);
   drawEnvironments(model);
   changed |= ImGui::SliderFloat("exposure", &view.exposure, 0.1f, 10, "%.2f", ImGuiSliderFlags_Logarithmic);
   changed |= ImGui::SliderFloat("resolution", &view.resolution, 0.25f, 1, "%.2f");
