@@ -42,7 +42,7 @@ std::uint8_t toSrgbByte(float linear) {
     }
     return values;
   }();
-  return table[std::size_t(double(std::sqrt(std::clamp(linear, 0.0f, 1.0f)) * 4096.0f) + 0.5)];
+  return table[std::size_t(std::lround(double(std::sqrt(std::clamp(linear, 0.0f, 1.0f)) * 4096.0f)))];
 }
 
 }  // namespace
