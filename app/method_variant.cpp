@@ -66,7 +66,7 @@ void addEnding(MethodVariant& variant, const std::string& method, const std::str
   }
   if (!renderer::hasMerges(variant.method))
     throw UsageError("--methods: '" + method + "' has nothing to merge", "leave '+" + ending + "' out");
-  variant.merge = parseMerge("--methods", ending);
+  variant.merge = parseMerge("--methods, after '+' (or cpu, gpu)", ending);
   variant.description += fmt::format(", merged by {}", ending);
 }
 

@@ -64,14 +64,15 @@ gl::Scissor findUnion(const VisibleMirrors& mirrors) {
 void readFlipped(const gl::Framebuffer& framebuffer, int attachment, core::ImageRgbaF& image) {
   framebuffer.readPixels(attachment, std::span<vec4>(image.pixels()));
   const std::size_t width = std::size_t(image.width()), height = std::size_t(image.height());
-  core::parallelFor(height / 2, 32, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t y = begin; y < end; ++y)
-      std::swap_ranges(image.data() + y * width, image.data() + (y + 1) * width,
-                       image.data() + (height - 1 - y) * width);
-  });
-  core::parallelFor(height, 64, [&](std::size_t begin, std::size_t end) {
-    std::for_each(image.data() + begin * width, image.data() + end * width,
-                  [](vec4& pixel) { pixel.w = 1.0f; });
+  core::parallelFor((height + 1) / 2, 32, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t y = begin; y < end; ++y) {
+      vec4 *upper = image.data() + y * width, *lower = image.data() + (height - 1 - y) * width;
+      for (std::size_t x = 0; x < width; ++x) {
+        const vec4 swapped = upper[x];
+        upper[x] = vec4(vec3(lower[x]), 1.0f);
+        lower[x] = vec4(vec3(swapped), 1.0f);
+      }
+    }
   });
 }
 
