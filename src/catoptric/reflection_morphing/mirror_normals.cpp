@@ -5,10 +5,19 @@
 
 #include <cassert>
 
-#include "catoptric/reflection_morphing/eight_lanes.h"
+#include "catoptric/core/eight_lanes.h"
 
 namespace catoptric::reflection_morphing {
 namespace {
+
+using core::dot;
+using core::Eight;
+using core::EightInts;
+using core::kLanes;
+using core::larger;
+using core::load;
+using core::squareRoot;
+using core::store;
 
 /// Steps 1 and 2 in the table's frame: the difference of both directions.
 CATOPTRIC_INLINE void computeTurns(const RayTable& table, const Eight& cx, const Eight& cy, Eight* turn) {

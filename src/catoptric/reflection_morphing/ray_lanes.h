@@ -16,10 +16,23 @@
 // All in the table's frame. Source: find_ray.cpp.
 #pragma once
 
-#include "catoptric/reflection_morphing/eight_lanes.h"
+#include "catoptric/core/eight_lanes.h"
 #include "catoptric/reflection_morphing/ray_table.h"
 
 namespace catoptric::reflection_morphing {
+
+using core::dot;
+using core::Eight;
+using core::EightInts;
+using core::Eights;
+using core::fromBits;
+using core::kLanes;
+using core::larger;
+using core::load;
+using core::squareRoot;
+using core::store;
+using core::toBits;
+using core::transpose;
 
 inline constexpr float kLastStep = 0.08f;  ///< texels; what it leaves is some thousandths of a texel
 

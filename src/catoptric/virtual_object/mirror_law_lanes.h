@@ -1,82 +1,130 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mirror law and Newton's step of reflection_point.h for eight vertices at once, in float.
+// The mirror law and Newton's step of reflection_point.h for eight places side by side, in float.
 //
-// Question: the same as there, for vertices for which it is easy: eight searches go on side by side, each in
-// a lane of its own, and one call evaluates all of them in the widest vectors that the processor has.
+// In: eight triangles of the mirror, a place (u, v) on each, the eye, eight scene points. Out: how far each
+// place is from holding the law, and the step towards where it holds.
 //
-// Frame: world axes, origin at the mirror's centre, so that floats carry the accuracy where it counts.
-// Loss against the double search: less than 0.05 px where the mirror is 700 px wide (lanes_test.cpp). What
-// floats cannot do (points that nearly touch the mirror, grazing ones, searches that do not converge at
-// once) is not tried here: the caller gives it to the double search.
+// Frame: world axes, origin at the mirror's centre, so that floats carry the accuracy where it counts. Only
+// for files that src/catoptric/CMakeLists.txt gives the flags of core/eight_lanes.h.
 #pragma once
 
 #include <array>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
-#include "catoptric/virtual_object/reflector_mesh.h"
+#include "catoptric/core/eight_lanes.h"
+#include "catoptric/core/math.h"
+#include "catoptric/virtual_object/lane_search.h"
 
 namespace catoptric::virtual_object {
 
-inline constexpr int kLanes = 8;
+using core::Eight;
+using core::EightInts;
+using core::Eights;
+using core::larger;
+using core::load;
+using core::squareRoot;
+using core::store;
 
-/// A triangle of the mirror as the lanes read it: two cache lines. Meanings as in MirrorTriangle.
-struct alignas(64) LaneTriangle {
-  vec3 position0, edge1, edge2, normal0, normal1, normal2;
-  float gram11, gram12, gram22;
-  std::array<std::uint32_t, 3> neighbours;
-  std::uint32_t flags;
+struct LaneVector {
+  Eight v[3];
 };
 
-[[nodiscard]] std::vector<LaneTriangle> makeLaneTriangles(const ReflectorMesh& mesh);
+CATOPTRIC_INLINE LaneVector operator-(const LaneVector& a, const LaneVector& b) {
+  return {{a.v[0] - b.v[0], a.v[1] - b.v[1], a.v[2] - b.v[2]}};
+}
+CATOPTRIC_INLINE LaneVector operator+(const LaneVector& a, const LaneVector& b) {
+  return {{a.v[0] + b.v[0], a.v[1] + b.v[1], a.v[2] + b.v[2]}};
+}
+CATOPTRIC_INLINE LaneVector operator*(const Eight& s, const LaneVector& a) {
+  return {{s * a.v[0], s * a.v[1], s * a.v[2]}};
+}
+CATOPTRIC_INLINE LaneVector same(const vec3& a) {
+  return {{Eight{} + a.x, Eight{} + a.y, Eight{} + a.z}};
+}
+CATOPTRIC_INLINE Eight dot(const LaneVector& a, const LaneVector& b) {
+  return core::dot(a.v, b.v);
+}
+CATOPTRIC_INLINE Eight smaller(const Eight& a, const Eight& b) {
+  return a < b ? a : b;
+}
+CATOPTRIC_INLINE LaneVector loadVector(const LaneFloats* from) {
+  return {{load(from[0]), load(from[1]), load(from[2])}};
+}
+CATOPTRIC_INLINE void storeVector(LaneFloats* to, const LaneVector& a) {
+  for (int k = 0; k < 3; ++k) store(to[k], a.v[k]);
+}
 
-/// Structure of arrays: element i of each array belongs to lane i.
-struct alignas(64) Lanes {
-  using Floats = float[kLanes];
-  // In.
-  Floats position0[3], edge1[3], edge2[3], normal0[3], normal1[3], normal2[3];
-  Floats u, v;      ///< where on its triangle each search stands
-  Floats point[3];  ///< Q
-  // Out.
-  Floats squaredSine;   ///< of the angle between half vector and normal
-  Floats facing;        ///< h.n; > 0 where E and Q lie in front
-  Floats distance;      ///< |JQ|
-  Floats stepU, stepV;  ///< Newton's step; not finite where the two equations are dependent
+/// By how far (u, v) lies outside of its triangle; negative inside.
+CATOPTRIC_INLINE Eight outsideBy(const Eight& u, const Eight& v) {
+  return larger(larger(-u, -v), u + v - 1.0f);
+}
 
-  void setTriangle(int lane, const LaneTriangle& triangle);
-  void setPoint(int lane, const vec3& q) {
-    for (int k = 0; k < 3; ++k) point[k][lane] = q[k];
+/// Meanings as in MirrorTriangle.
+struct Triangles {
+  LaneVector position0, edge1, edge2, normal0, normal1, normal2;
+  Eight gram11, gram12, gram22;
+};
+
+CATOPTRIC_INLINE void gather(std::span<const LaneTriangle> from, const EightInts& ids, Triangles& t) {
+  static_assert(sizeof(LaneTriangle) == 128 && offsetof(LaneTriangle, neighbours) == 84);
+  Eight columns[24];
+  for (int k = 0; k < 3; ++k) {
+    Eights rows;
+    for (int i = 0; i < kLanes; ++i) rows[i] = load(&from[std::uint32_t(ids[i])].position0.x + 8 * k);
+    core::transpose(rows);
+    for (int i = 0; i < 8; ++i) columns[8 * k + i] = rows[i];
   }
+  const auto vector = [&](int k) __attribute__((always_inline)) {
+    return LaneVector{{columns[k], columns[k + 1], columns[k + 2]}};
+  };
+  t.position0 = vector(0), t.edge1 = vector(3), t.edge2 = vector(6);
+  t.normal0 = vector(9), t.normal1 = vector(12), t.normal2 = vector(15);
+  t.gram11 = columns[18], t.gram12 = columns[19], t.gram22 = columns[20];
+}
+
+/// As LaneLaw.
+struct Law {
+  Eight squaredSine, facing, distance, stepU, stepV;
 };
 
-/// Evaluates all lanes for an eye.
-void evaluateLanes(Lanes& lanes, const vec3& eye);
-
-/// The hidden map's frame, as floats around the mirror's centre.
-struct LaneView {
-  vec3 eye{0}, x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-  vec2 lower{0}, pixelsPerUnit{1};
-  float nearest = 0, squaredCosine = 2;
-
-  /// Pixel of the hidden map in which the eye sees a point.
-  [[nodiscard]] vec2 pixelOf(const vec3& local) const {
-    const vec3 d = local - eye;
-    const float length = std::sqrt(glm::dot(d, d));
-    const float scale = 1.0f / std::sqrt(2.0f * length * (glm::dot(z, d) + length));
-    return (vec2(glm::dot(x, d), glm::dot(y, d)) * scale - lower) * pixelsPerUnit;
-  }
-};
-
-/// A point of the mirror, as SurfacePoint.
-struct LanePoint {
-  std::uint32_t triangle = 0;
-  float u = 0, v = 0;
-};
-
-/// Moves a point by (du, dv) of its triangle, across edges as they come. False where that is not done within
-/// a few triangles or leads past the end of the mesh.
-[[nodiscard]] bool walkLane(std::span<const LaneTriangle> triangles, LanePoint& at, float du, float dv);
+/// MirrorLaw and computeNewtonStep of reflection_point.h, in the same order.
+CATOPTRIC_INLINE Law evaluate(const Triangles& t, const Eight& u, const Eight& v, const LaneVector& eye,
+                              const LaneVector& point) {
+  const LaneVector p = t.position0 + u * t.edge1 + v * t.edge2;
+  const LaneVector n = t.normal0 + u * t.normal1 + v * t.normal2;
+  const LaneVector toEye = eye - p, toPoint = point - p;
+  const Eight a = squareRoot(dot(toEye, toEye)), b = squareRoot(dot(toPoint, toPoint));
+  const Eight inverse = 1.0f / (a * b * (a + b));
+  const Eight inverseA = b * (a + b) * inverse, inverseB = a * (a + b) * inverse,
+              inverseSum = a * b * inverse;
+  const LaneVector wi = inverseA * toEye, wo = inverseB * toPoint;
+  // Half vector h and its part across the normal, q.
+  const LaneVector h = wi + wo;
+  const Eight nn = dot(n, n), hn = dot(h, n);
+  const LaneVector q = nn * h - hn * n;
+  Law law;
+  law.squaredSine = dot(q, q) / (dot(h, h) * nn * nn);
+  law.facing = hn;
+  law.distance = b;
+  // Derivatives along both edges.
+  const Eight both = inverseA + inverseB, eyeShare = b * inverseSum, pointShare = a * inverseSum;
+  const auto derive = [&](const LaneVector& e, const LaneVector& m) __attribute__((always_inline)) {
+    const Eight ieA = dot(e, wi) * inverseA, oeB = dot(e, wo) * inverseB;
+    const LaneVector dh = ieA * wi + oeB * wo - both * e;
+    const Eight dNn = 2.0f * dot(m, n), dHn = dot(dh, n) + dot(m, h);
+    const Eight dLogS = -(ieA * eyeShare + oeB * pointShare);
+    return dNn * h + nn * dh - dHn * n - hn * m + dLogS * q;
+  };
+  const LaneVector d1 = derive(t.edge1, t.normal1), d2 = derive(t.edge2, t.normal2);
+  // Two equations e1.q = e2.q = 0 in (u, v).
+  const Eight f1 = dot(t.edge1, q), f2 = dot(t.edge2, q);
+  const Eight j11 = dot(d1, t.edge1), j12 = dot(d2, t.edge1), j21 = dot(d1, t.edge2), j22 = dot(d2, t.edge2);
+  const Eight inverseDeterminant = 1.0f / (j11 * j22 - j12 * j21);
+  law.stepU = (j12 * f2 - j22 * f1) * inverseDeterminant;
+  law.stepV = (j21 * f1 - j11 * f2) * inverseDeterminant;
+  return law;
+}
 
 }  // namespace catoptric::virtual_object

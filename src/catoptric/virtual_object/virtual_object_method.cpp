@@ -92,7 +92,7 @@ void VirtualObjectMethod::computeVirtualVertices(raster::FrameContext& frame, co
     for (std::size_t i = 0; i < wanted.size(); ++i) prepared.mayReflect[i] &= wanted[i];
   }
   prepared.solver->compute(solver, points, prepared.virtualPositions, prepared.kinds,
-                           prepared.reflectionPoints, prepared.mayReflect);
+                           prepared.reflectionPoints, prepared.mayReflect, &prepared.places);
   const std::size_t culled = prepared.runs.countLeftOut(prepared.mayReflect);
   frame.counters.virtualVertices += points.size() - culled;
   if (wanted.empty()) frame.counters.culledVertices += culled;

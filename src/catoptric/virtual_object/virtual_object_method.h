@@ -76,6 +76,7 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     std::vector<vec3> scenePoints;      ///< vertices mirrored by the planar links behind the curved one
     std::vector<vec3> virtualPositions, reflectionPoints;
     std::vector<VertexKind> kinds;
+    LanePlaces places;                     ///< of the last frame, where the next one begins
     std::vector<std::uint8_t> mayReflect;  ///< by run
     std::unique_ptr<OnGpu> gpu;            ///< made when first needed
     bool isFoundOnCpu = false;             ///< the arrays above are those of the solver's eye

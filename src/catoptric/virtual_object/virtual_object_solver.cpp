@@ -81,9 +81,7 @@ void VirtualObjectSolver::setEye(const dvec3& eye) {
     }
   });
   fillSeedMap(*mesh_, nearMap_, farMap_, seedMap_);
-  laneView_ = {vec3(eye - mesh_->centre()), vec3(hiddenMap_.frame.x),       vec3(hiddenMap_.frame.y),
-               vec3(hiddenMap_.frame.z),    vec2(hiddenMap_.lower),         vec2(hiddenMap_.pixelsPerUnit),
-               float(hiddenMap_.nearest),   float(hiddenMap_.squaredCosine)};
+  if (mesh_->isConvex()) prepareLanes();
   if (finder_) finder_->setEye(eyeView());
 }
 
@@ -240,13 +238,14 @@ std::optional<ReflectionPoint> VirtualObjectSolver::findReflectionPoint(Solver s
 
 void VirtualObjectSolver::compute(Solver solver, std::span<const vec3> scenePoints,
                                   std::span<vec3> virtualPositions, std::span<VertexKind> kinds,
-                                  std::span<vec3> reflectionPoints,
-                                  std::span<const std::uint8_t> mayReflect) const {
+                                  std::span<vec3> reflectionPoints, std::span<const std::uint8_t> mayReflect,
+                                  LanePlaces* places) const {
   assert(virtualPositions.size() == scenePoints.size() && kinds.size() == scenePoints.size());
   assert(reflectionPoints.empty() || reflectionPoints.size() == scenePoints.size());
   // Runs at fixed places: a vertex starts from its predecessor, and the result must not depend on the
   // threads.
-  const VertexSink sink{scenePoints, virtualPositions, kinds, reflectionPoints};
+  if (places != nullptr) places->resize(scenePoints.size());
+  const VertexSink sink{scenePoints, virtualPositions, kinds, reflectionPoints, places};
   const std::size_t runs = (scenePoints.size() + kRunLength - 1) / kRunLength;
   assert(mayReflect.empty() || mayReflect.size() == runs);
   core::parallelFor(runs, 1, [&](std::size_t firstRun, std::size_t endRun) {

@@ -24,7 +24,7 @@
 #include "catoptric/core/math.h"
 #include "catoptric/raster/virtual_triangles.h"
 #include "catoptric/virtual_object/explosion_map.h"
-#include "catoptric/virtual_object/mirror_law_lanes.h"
+#include "catoptric/virtual_object/lane_search.h"
 #include "catoptric/virtual_object/point_finder.h"
 #include "catoptric/virtual_object/reflected_cone.h"
 #include "catoptric/virtual_object/reflection_point.h"
@@ -75,6 +75,7 @@ struct VertexSink {
   std::span<vec3> virtualPositions;
   std::span<VertexKind> kinds;
   std::span<vec3> reflectionPoints;
+  LanePlaces* places = nullptr;
 
   void write(std::size_t i, const vec3& virtualPosition, const vec3& position, VertexKind kind) const {
     virtualPositions[i] = virtualPosition;
@@ -109,10 +110,11 @@ class VirtualObjectSolver {
   /// All spans have equal length, except that `reflectionPoints` (J, wanted by selectVirtualTriangles()) may
   /// be empty. Parallel, and for convex mirrors in the processor's vectors; the result does not depend on the
   /// number of threads. Positions of None are left as Q. Runs with a 0 in `mayReflect` (findReflectedRuns();
-  /// empty for all ones) become None, their positions are not touched.
+  /// empty for all ones) become None, their positions are not touched. `places`: where the same vertices
+  /// were last seen in this mirror, of use when eye and vertices have moved little; they are updated.
   void compute(Solver solver, std::span<const vec3> scenePoints, std::span<vec3> virtualPositions,
                std::span<VertexKind> kinds, std::span<vec3> reflectionPoints = {},
-               std::span<const std::uint8_t> mayReflect = {}) const;
+               std::span<const std::uint8_t> mayReflect = {}, LanePlaces* places = nullptr) const;
 
   /// One point, for tests and picking; nothing when the kind would be None.
   [[nodiscard]] std::optional<ReflectionPoint> findReflectionPoint(Solver solver,
@@ -141,15 +143,10 @@ class VirtualObjectSolver {
                                              double nearWeight) const;
   [[nodiscard]] VirtualVertex solveRefined(const dvec3& scenePoint, const SeedPixel& seed,
                                            double nearWeight) const;
-  struct LaneRun;
   void computeInOrder(const VertexSink& sink, std::size_t begin, std::size_t end) const;
   void computeInLanes(const VertexSink& sink, std::size_t begin, std::size_t end) const;
-  bool startLane(LaneRun& run, int lane, Lanes& lanes, const VertexSink& sink) const;
-  bool advanceLane(LaneRun& run, int lane, Lanes& lanes, const VertexSink& sink) const;
-  void solveAlone(LaneRun& run, const VertexSink& sink) const;
-  [[nodiscard]] bool jumpTo(LanePoint& at, const vec3& target) const;
-  [[nodiscard]] LanePoint findLaneSeed(const vec3& scenePoint) const;
-  [[nodiscard]] bool mayBeHidden(const vec3& local) const;
+  void solveGroup(const VertexSink& sink, std::size_t first, std::size_t count) const;
+  void prepareLanes();
   [[nodiscard]] VirtualVertex solveFound(const dvec3& scenePoint) const;
   [[nodiscard]] std::optional<ReflectionPoint> describeFound(const dvec3& scenePoint) const;
   [[nodiscard]] dvec2 computeCoords(const dvec3& scenePoint, double& nearWeight) const;

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "catoptric/geometry/shapes.h"
-#include "catoptric/virtual_object/mirror_law_lanes.h"
+#include "catoptric/virtual_object/lane_search.h"
 #include "catoptric/virtual_object/reflection_point.h"
 #include "catoptric/virtual_object/virtual_object_solver.h"
 #include "solver_test_support.h"
@@ -32,20 +32,22 @@ TEST(Lanes, theLawAndItsDerivativesAreThoseOfTheDoubleSearch) {
   std::uniform_real_distribution<double> share(0.1, 0.4);
   for (int round = 0; round < 200; ++round) {
     const dvec3 eye = 2.0 * randomDirection(random);
-    Lanes lanes{};
-    std::array<std::uint32_t, kLanes> chosen;
+    LaneView view;
+    view.triangles = triangles;
+    view.centre = vec3(mesh.centre());
+    view.eye = vec3(eye - mesh.centre());
+    LaneGroup group;
     std::array<dvec3, kLanes> points;
     for (int lane = 0; lane < kLanes; ++lane) {
-      chosen[lane] = std::uint32_t(random() % mesh.ordinaryCount());
+      group.triangle[lane] = std::int32_t(random() % mesh.ordinaryCount());
       points[lane] = 1.5 * randomDirection(random);
-      lanes.setTriangle(lane, triangles[chosen[lane]]);
-      lanes.setPoint(lane, vec3(points[lane] - mesh.centre()));
-      lanes.u[lane] = float(share(random)), lanes.v[lane] = float(share(random));
+      for (int k = 0; k < 3; ++k) group.point[k][lane] = float(points[lane][k]);
+      group.u[lane] = float(share(random)), group.v[lane] = float(share(random));
     }
-    evaluateLanes(lanes, vec3(eye - mesh.centre()));
+    const LaneLaw lanes = evaluateLanes(view, group);
     for (int lane = 0; lane < kLanes; ++lane) {
-      const MirrorTriangle& t = mesh.triangles()[chosen[lane]];
-      const MirrorLaw law = evaluateMirrorLaw(t, lanes.u[lane], lanes.v[lane], eye, points[lane]);
+      const MirrorTriangle& t = mesh.triangles()[std::size_t(group.triangle[lane])];
+      const MirrorLaw law = evaluateMirrorLaw(t, group.u[lane], group.v[lane], eye, points[lane]);
       if (glm::dot(law.h, law.h) < 0.01) continue;  // grazing: floats are not used there
       EXPECT_NEAR(lanes.squaredSine[lane], law.squaredSine(), 1e-4);
       EXPECT_NEAR(lanes.facing[lane], law.hn, 1e-5);

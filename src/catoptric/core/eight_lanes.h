@@ -14,7 +14,7 @@
 // How vectors are handed over by value does not matter: all is inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-namespace catoptric::reflection_morphing {
+namespace catoptric::core {
 
 inline constexpr int kLanes = 8;
 
@@ -79,4 +79,4 @@ CATOPTRIC_INLINE void transpose(Eights& m) {
   }
 }
 
-}  // namespace catoptric::reflection_morphing
+}  // namespace catoptric::core

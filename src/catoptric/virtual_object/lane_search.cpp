@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "catoptric/virtual_object/lane_search.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "catoptric/core/eight_lanes.h"
+#include "catoptric/virtual_object/mesh_walk.h"
+#include "catoptric/virtual_object/mirror_law_lanes.h"
+
+namespace catoptric::virtual_object {
+namespace {
+
+using core::fromBits;
+using core::toBits;
+
+constexpr float kAlmostSine = 2e-3f;  // one more step leaves about the square of it
+constexpr float kStaleSine = 0.1f;    // the maps know better than the last frame
+constexpr float kGrazing = 0.02f;     // of h.n = 2 cos(angle of incidence): below it floats lose too much
+constexpr float kWalkable = 1.0f;     // triangles away; beyond, the hidden map knows the way
+constexpr int kMaxSteps = 8;          // more means that the start was bad
+constexpr float kFarOutside = 0.5f;   // there the extrapolated mirror is no guide
+constexpr int kMostStepsOutside = 1;  // there, unless they lead on
+constexpr float kOutside = 1e-5f;     // barycentric slack
+constexpr int kMostCrossings = 24;
+
+/// Where a map shows a point.
+struct MapPlace {
+  EightInts isInside;
+  EightInts index;  ///< of its pixel, 0 where it is not inside
+};
+
+CATOPTRIC_INLINE MapPlace findPlace(const LaneMap& map, const LaneVector& local) {
+  const LaneVector d = local - same(map.centre);
+  const Eight length = squareRoot(dot(d, d));
+  const Eight scale =
+      1.0f / squareRoot(larger(2.0f * length * (dot(same(map.z), d) + length), Eight{} + 1e-12f));
+  const Eight x = (dot(same(map.x), d) * scale - map.lower.x) * map.pixelsPerUnit.x;
+  const Eight y = (dot(same(map.y), d) * scale - map.lower.y) * map.pixelsPerUnit.y;
+  const Eight size = Eight{} + float(map.size);
+  MapPlace place;
+  place.isInside = (x >= 0.0f) & (y >= 0.0f) & (x < size) & (y < size);
+  const EightInts column = __builtin_convertvector(place.isInside ? x : Eight{}, EightInts),
+                  row = __builtin_convertvector(place.isInside ? y : Eight{}, EightInts);
+  place.index = row * map.size + column;
+  return place;
+}
+
+CATOPTRIC_INLINE LaneVector toLocal(const LaneView& view, const LaneVector& world) {
+  return world - same(view.centre) - same(view.centreRest);
+}
+
+struct FindMaybeHidden {
+  CATOPTRIC_INLINE static void run(const LaneView& view, const LaneGroup& group, unsigned& hidden) {
+    constexpr float kSlack = 1e-4f;      // for the floats
+    constexpr float kPixelDepth = 0.1f;  // by how much a pixel of the map may be nearer than its middle
+    const LaneVector local = toLocal(view, loadVector(group.point));
+    const LaneVector toPoint = local - same(view.eye);
+    const Eight along = dot(toPoint, same(view.hiddenMap.z)), squared = dot(toPoint, toPoint);
+    EightInts maybe = (along > (1 - kSlack) * view.hiddenNearest) &
+                      (along * along > (view.hiddenSquaredCosine - kSlack) * squared);
+    hidden = toBits(maybe);
+    if (hidden == 0) return;
+    const MapPlace place = findPlace(view.hiddenMap, local);
+    Eight distance;
+    for (int i = 0; i < kLanes; ++i) distance[i] = view.hiddenDistances[std::uint32_t(place.index[i])];
+    maybe &= place.isInside & (squared > (1 - kPixelDepth) * distance * distance);
+    hidden = toBits(maybe);
+  }
+};
+
+struct Search {
+  EightInts triangle;
+  Eight u, v;
+  Triangles t;
+};
+
+/// Where the eye sees a target on the mirror, without walking there: the hidden map names the triangle. Lanes
+/// in which it shows none keep theirs.
+CATOPTRIC_INLINE void jumpTo(const LaneView& view, const LaneVector& target, Search& s) {
+  const MapPlace place = findPlace(view.hiddenMap, target);
+  EightInts shown;
+  for (int i = 0; i < kLanes; ++i) shown[i] = std::int32_t(view.hiddenIds[std::uint32_t(place.index[i])]);
+  const EightInts isShown = place.isInside & (shown != std::int32_t(core::kNoId));
+  s.triangle = isShown ? shown : s.triangle;
+  gather(view.triangles, s.triangle, s.t);
+  const LaneVector d = target - s.t.position0;
+  const Eight a = dot(s.t.edge1, d), b = dot(s.t.edge2, d);
+  const Eight u = larger(s.t.gram11 * a + s.t.gram12 * b, Eight{}),
+              v = larger(s.t.gram12 * a + s.t.gram22 * b, Eight{});
+  const Eight inside = 1.0f / larger(u + v, Eight{} + 1.0f);
+  const Eight middle = Eight{} + 1.0f / 3;
+  s.u = isShown ? u * inside : middle;
+  s.v = isShown ? v * inside : middle;
+}
+
+/// Step 1.
+CATOPTRIC_INLINE void start(const LaneView& view, const LaneVector& local, Search& s) {
+  const LaneVector d = local - same(view.seedMap.centre);
+  const Eight layer =
+      (1.0f / squareRoot(larger(dot(d, d), Eight{} + 1e-30f)) - view.inverseNear) * view.layersPerInverse;
+  const Eight nearWeight = 1.0f - smaller(larger(layer, Eight{}), Eight{} + 1.0f);
+  const MapPlace place = findPlace(view.seedMap, local);
+  static_assert(sizeof(SeedPixel) == sizeof(Eight));
+  Eights seeds;
+  for (int i = 0; i < kLanes; ++i) seeds[i] = load(&view.seeds[std::uint32_t(place.index[i])].nearPosition.x);
+  core::transpose(seeds);
+  EightInts nearTriangle, farTriangle;
+  std::memcpy(&nearTriangle, &seeds[3], sizeof nearTriangle);
+  std::memcpy(&farTriangle, &seeds[7], sizeof farTriangle);
+  s.triangle = nearWeight >= 0.5f ? nearTriangle : farTriangle;
+  const LaneVector near{{seeds[0], seeds[1], seeds[2]}}, far{{seeds[4], seeds[5], seeds[6]}};
+  jumpTo(view, toLocal(view, nearWeight * near + (1.0f - nearWeight) * far), s);
+}
+
+/// Some lanes to where the maps say; false if there are none.
+CATOPTRIC_INLINE bool restart(const LaneView& view, const EightInts& which, const LaneVector& local,
+                              Search& s) {
+  if (toBits(which) == 0) return false;
+  Search fresh;
+  start(view, local, fresh);
+  s.triangle = which ? fresh.triangle : s.triangle;
+  s.u = which ? fresh.u : s.u;
+  s.v = which ? fresh.v : s.v;
+  gather(view.triangles, s.triangle, s.t);
+  return true;
+}
+
+/// Steps that leave their triangle, lane by lane.
+struct Walk {
+  LaneFloats u, v, stepU, stepV;
+  std::uint32_t triangle[kLanes];
+  unsigned lost = 0;  ///< lanes that got nowhere
+};
+
+/// To the triangle that the hidden map shows where lane i's step ends; false where it shows none.
+bool jumpAlone(const LaneView& view, Walk& walk, int i) {
+  const LaneMap& map = view.hiddenMap;
+  const LaneTriangle& t = view.triangles[walk.triangle[i]];
+  const vec3 target =
+      t.position0 + (walk.u[i] + walk.stepU[i]) * t.edge1 + (walk.v[i] + walk.stepV[i]) * t.edge2;
+  const vec3 d = target - map.centre;
+  const float length = std::sqrt(glm::dot(d, d));
+  const float scale = 1.0f / std::sqrt(2.0f * length * (glm::dot(map.z, d) + length));
+  const vec2 px = (vec2(glm::dot(map.x, d), glm::dot(map.y, d)) * scale - map.lower) * map.pixelsPerUnit;
+  const float size = float(map.size);
+  if (!(px.x >= 0 && px.y >= 0 && px.x < size && px.y < size)) return false;
+  const std::uint32_t id = view.hiddenIds[std::size_t(int(px.y) * map.size + int(px.x))];
+  if (id == core::kNoId) return false;
+  const LaneTriangle& there = view.triangles[id];
+  const vec3 offset = target - there.position0;
+  const float a = glm::dot(there.edge1, offset), b = glm::dot(there.edge2, offset);
+  const float u = std::max(there.gram11 * a + there.gram12 * b, 0.0f),
+              v = std::max(there.gram12 * a + there.gram22 * b, 0.0f);
+  const float inside = 1.0f / std::max(u + v, 1.0f);
+  walk.triangle[i] = id, walk.u[i] = u * inside, walk.v[i] = v * inside;
+  return true;
+}
+
+void walkAlone(const LaneView& view, unsigned lanes, unsigned last, Walk& walk) {
+  struct Place {
+    std::uint32_t triangle;
+    float u, v;
+  };
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const int i = std::countr_zero(lanes);
+    const float u = walk.u[i] + walk.stepU[i], v = walk.v[i] + walk.stepV[i];
+    const bool isNear = std::max({-u, -v, u + v - 1.0f}) < kWalkable || ((last >> i) & 1u) != 0;
+    if (!isNear && jumpAlone(view, walk, i)) continue;
+    Place at{walk.triangle[i], walk.u[i], walk.v[i]};
+    if (!walkOverMesh(view.triangles, at, walk.stepU[i], walk.stepV[i], kMostCrossings) &&
+        std::max({-at.u, -at.v, at.u + at.v - 1.0f}) <= 0)
+      walk.lost |= 1u << i;
+    walk.triangle[i] = at.triangle, walk.u[i] = at.u, walk.v[i] = at.v;
+  }
+}
+
+/// Step 3 for lanes whose step leaves the triangle; returns those that got nowhere.
+CATOPTRIC_INLINE EightInts walkOn(const LaneView& view, const EightInts& leaving, const EightInts& last,
+                                  const Law& law, Search& s) {
+  Walk walk;
+  store(walk.u, s.u), store(walk.v, s.v);
+  store(walk.stepU, law.stepU), store(walk.stepV, law.stepV);
+  std::memcpy(walk.triangle, &s.triangle, sizeof walk.triangle);
+  walkAlone(view, toBits(leaving), toBits(last), walk);
+  s.u = load(walk.u), s.v = load(walk.v);
+  std::memcpy(&s.triangle, walk.triangle, sizeof walk.triangle);
+  gather(view.triangles, s.triangle, s.t);
+  return fromBits(walk.lost);
+}
+
+/// Step 1: at the places of the last frame, those without one at the maps' place.
+CATOPTRIC_INLINE Search begin(const LaneView& view, const LaneGroup& group, const LaneVector& local) {
+  Search s;
+  std::memcpy(&s.triangle, group.triangle, sizeof s.triangle);
+  s.u = load(group.u), s.v = load(group.v);
+  const EightInts isKnown = (s.triangle >= 0) & (s.triangle < std::int32_t(view.triangles.size()));
+  s.triangle = isKnown ? s.triangle : EightInts{};
+  if ((group.wanted & ~toBits(isKnown)) != 0)
+    restart(view, ~isKnown, local, s);
+  else
+    gather(view.triangles, s.triangle, s.t);
+  return s;
+}
+
+struct SearchLanes {
+  CATOPTRIC_INLINE static void run(const LaneView& view, LaneGroup& group) {
+    const LaneVector local = toLocal(view, loadVector(group.point)), eye = same(view.eye);
+    Search s = begin(view, group, local);
+    EightInts active = fromBits(group.wanted), found{}, lost{}, hard{}, stepsOutside{};
+    Eight lastSine = Eight{} + 4.0f;
+    for (int step = 0; step < kMaxSteps && toBits(active) != 0; ++step) {
+      Law law = evaluate(s.t, s.u, s.v, eye, local);  // 2
+      if (step == 0 && restart(view, active & ~(law.squaredSine < kStaleSine * kStaleSine), local, s))
+        law = evaluate(s.t, s.u, s.v, eye, local);
+      const EightInts isLast = law.squaredSine < kAlmostSine * kAlmostSine;
+      const EightInts isFar = outsideBy(s.u, s.v) > kFarOutside;
+      stepsOutside -= isFar;
+      const EightInts isEasy =
+          (law.squaredSine < lastSine) & (law.facing > kGrazing) & (law.distance > view.touching);
+      const EightInts isLost = ~isEasy | (step == kMaxSteps - 1 ? ~isLast : EightInts{});
+      const EightInts isGone =
+          active & isLost & isFar & (law.facing > 0.0f) & (stepsOutside > kMostStepsOutside);
+      lost |= isGone;
+      active &= ~isGone;
+      hard |= active & ~isEasy;
+      active &= isEasy;
+      const Eight u = s.u + law.stepU, v = s.v + law.stepV, outside = outsideBy(u, v);
+      const EightInts stays = active & (outside <= 0.0f), leaves = active & ~stays;
+      s.u = stays ? u : s.u;
+      s.v = stays ? v : s.v;
+      if (toBits(leaves) != 0) {  // 3
+        const EightInts stuck = walkOn(view, leaves, isLast, law, s);
+        hard |= stuck;
+        active &= ~stuck;
+      }
+      found |= active & isLast;
+      active &= ~isLast;
+      lastSine = law.squaredSine;
+    }
+    hard |= active;
+    finish(view, s, local, eye, found, group);
+    group.lost = toBits(lost), group.hard = toBits(hard);
+  }
+
+  CATOPTRIC_INLINE static void finish(const LaneView& view, const Search& s, const LaneVector& local,
+                                      const LaneVector& eye, const EightInts& found, LaneGroup& group) {
+    const LaneVector position = s.t.position0 + s.u * s.t.edge1 + s.v * s.t.edge2;
+    const LaneVector toPosition = position - eye, onward = local - position;
+    const Eight lengthening = squareRoot(dot(onward, onward) / dot(toPosition, toPosition));
+    const LaneVector rest = same(view.centreRest), centre = same(view.centre);
+    storeVector(group.position, (position + rest) + centre);
+    storeVector(group.virtualPosition, ((position + lengthening * toPosition) + rest) + centre);
+    group.found = toBits(found);
+    std::memcpy(group.triangle, &s.triangle, sizeof group.triangle);
+    store(group.u, s.u), store(group.v, s.v);
+    group.isOutside = group.found & toBits(outsideBy(s.u, s.v) > kOutside);
+    for (int i = 0; i < kLanes; ++i)
+      if (view.triangles[std::uint32_t(s.triangle[i])].flags & MirrorTriangle::kSkirt)
+        group.isOutside |= (1u << i) & group.found;
+  }
+};
+
+struct EvaluateLanes {
+  CATOPTRIC_INLINE static void run(const LaneView& view, const LaneGroup& group, LaneLaw& out) {
+    EightInts triangle;
+    std::memcpy(&triangle, group.triangle, sizeof triangle);
+    Triangles t;
+    gather(view.triangles, triangle, t);
+    const Law law =
+        evaluate(t, load(group.u), load(group.v), same(view.eye), toLocal(view, loadVector(group.point)));
+    store(out.squaredSine, law.squaredSine), store(out.facing, law.facing), store(out.distance, law.distance);
+    store(out.stepU, law.stepU), store(out.stepV, law.stepV);
+  }
+};
+
+}  // namespace
+
+std::vector<LaneTriangle> makeLaneTriangles(const ReflectorMesh& mesh) {
+  std::vector<LaneTriangle> lanes;
+  lanes.reserve(mesh.triangles().size());
+  for (const MirrorTriangle& t : mesh.triangles())
+    lanes.push_back({vec3(t.position0 - mesh.centre()), vec3(t.edge1), vec3(t.edge2), vec3(t.normal0),
+                     vec3(t.normal1), vec3(t.normal2), float(t.gram11), float(t.gram12), float(t.gram22),
+                     t.neighbours, t.flags});
+  return lanes;
+}
+
+unsigned findMaybeHidden(const LaneView& view, const LaneGroup& group) {
+  unsigned hidden = 0;
+  core::runOnWidestVectors<FindMaybeHidden>(view, group, hidden);
+  return hidden;
+}
+
+void searchLanes(const LaneView& view, LaneGroup& group) {
+  core::runOnWidestVectors<SearchLanes>(view, group);
+}
+
+LaneLaw evaluateLanes(const LaneView& view, const LaneGroup& group) {
+  LaneLaw out;
+  core::runOnWidestVectors<EvaluateLanes>(view, group, out);
+  return out;
+}
+
+}  // namespace catoptric::virtual_object

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// The search of reflection_point.h for eight vertices side by side, in float.
+//
+// Question: where on a convex mirror does the eye see each of eight scene points?
+//   1. Start: where the last frame found it; else the blend of what the near and the far explosion map say,
+//      in the triangle that the hidden map shows there.
+//   2. All lanes are evaluated at once (mirror_law_lanes.h). A lane whose residual is small takes one last
+//      step and is found: Newton's error goes with the square, so the step makes it vanish. Another takes its
+//      step and goes on.
+//   3. Steps that leave their triangle walk over the mesh, lane by lane (mesh_walk.h); past the end of an
+//   open
+//      mirror the last triangle is extrapolated, and a search that goes far out without a root is lost.
+//   4. What is not easy - nearly touching the mirror, grazing, no quick convergence - is handed back for the
+//      double search. So what is found, and for which vertices, is what that one finds.
+//
+// Frame inside: world axes, origin at the mirror's centre. Loss against the double search: less than 0.05 px
+// where the mirror is 700 px wide (lanes_test.cpp).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "catoptric/core/math.h"
+#include "catoptric/virtual_object/explosion_map.h"
+#include "catoptric/virtual_object/reflector_mesh.h"
+
+namespace catoptric::virtual_object {
+
+inline constexpr int kLanes = 8;
+using LaneFloats = float[kLanes];
+
+/// A triangle of the mirror as the lanes read it: three vectors, and one number more. Meanings as in
+/// MirrorTriangle.
+struct alignas(64) LaneTriangle {
+  vec3 position0, edge1, edge2, normal0, normal1, normal2;
+  float gram11, gram12, gram22;
+  std::array<std::uint32_t, 3> neighbours;
+  std::uint32_t flags;
+};
+
+[[nodiscard]] std::vector<LaneTriangle> makeLaneTriangles(const ReflectorMesh& mesh);
+
+/// A map of directions, as floats around the mirror's centre.
+struct LaneMap {
+  vec3 centre{0}, x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  vec2 lower{0}, pixelsPerUnit{1};
+  int size = 0;
+};
+
+/// What the lanes read of a mirror and an eye. The spans must outlive it.
+struct LaneView {
+  std::span<const LaneTriangle> triangles;
+  vec3 centre{0}, centreRest{0};  ///< of the mirror, world: a float, and what it leaves
+  vec3 eye{0};
+  LaneMap hiddenMap, seedMap;
+  std::span<const std::uint32_t> hiddenIds;
+  std::span<const float> hiddenDistances;
+  std::span<const SeedPixel> seeds;
+  float hiddenNearest = 0, hiddenSquaredCosine = 2;
+  float inverseNear = 0, layersPerInverse = 0;
+  float touching = 0;  ///< nearer points need doubles
+};
+
+/// Where each of many vertices was last seen in a mirror. A place that is not on the mirror at all is as good
+/// as none; one that is wrong costs an evaluation.
+struct LanePlaces {
+  std::vector<std::int32_t> triangles;  ///< -1: nowhere
+  std::vector<float> u, v;
+
+  /// Forgets all unless there are `count` already.
+  void resize(std::size_t count) {
+    if (triangles.size() == count) return;
+    triangles.assign(count, -1);
+    u.assign(count, 0.0f), v.assign(count, 0.0f);
+  }
+};
+
+/// Eight vertices. Which ones: bit i for lane i.
+struct alignas(64) LaneGroup {
+  unsigned wanted = 0;            ///< in: to be searched
+  LaneFloats point[3];            ///< in: Q, world
+  std::int32_t triangle[kLanes];  ///< in: as LanePlaces; out: of those found
+  LaneFloats u, v;
+
+  // Out: each wanted lane is in one of the first three.
+  unsigned found = 0;
+  unsigned lost = 0;       ///< far past the mirror's edge, where no root was found; the last place is there
+  unsigned hard = 0;       ///< for the double search
+  unsigned isOutside = 0;  ///< of those found, past the mirror's edge
+  LaneFloats virtualPosition[3], position[3];  ///< Q', J, world
+};
+
+/// Lanes that may be hidden by the mirror: in the others the point surely lies in front of it or beside it.
+[[nodiscard]] unsigned findMaybeHidden(const LaneView& view, const LaneGroup& group);
+
+void searchLanes(const LaneView& view, LaneGroup& group);
+
+/// The law at one place each, for tests.
+struct LaneLaw {
+  LaneFloats squaredSine;   ///< of the angle between half vector and normal
+  LaneFloats facing;        ///< h.n; > 0 where E and Q lie in front
+  LaneFloats distance;      ///< |JQ|
+  LaneFloats stepU, stepV;  ///< Newton's step; not finite where the two equations are dependent
+};
+/// Of the group, places and points are read.
+[[nodiscard]] LaneLaw evaluateLanes(const LaneView& view, const LaneGroup& group);
+
+}  // namespace catoptric::virtual_object
