@@ -4,6 +4,8 @@
 // boxes; the same for the side of a cylinder.
 #include <benchmark/benchmark.h>
 
+#include <chrono>
+#include <cmath>
 #include <memory>
 
 #include "catoptric/geometry/shapes.h"
@@ -96,6 +98,28 @@ BENCHMARK(virtualVertices)
     ->ArgNames({"cylinder", "solver"})  // explosion, refined, analytic, layered, subdivision
     ->ArgsProduct({{0, 1}, {0, 1, 2, 3, 4}})
     ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+
+/// As frame after frame of a walking eye: a vertex begins where the frame before found it.
+void verticesOfANewEye(benchmark::State& state) {
+  Bench& b = getBench(state.range(0));
+  LanePlaces places;
+  double angle = 0;
+  for (auto _ : state) {
+    angle += double(state.range(1)) * 1e-3 / 2.6;
+    b.solver.setEye({2.6 * std::sin(angle), 0.9, 2.6 * std::cos(angle)});
+    const auto start = std::chrono::steady_clock::now();
+    b.solver.compute(Solver::Refined, b.objects.positions, b.positions, b.kinds, b.points, {}, &places);
+    state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  state.counters["vertices/s"] = benchmark::Counter(double(b.positions.size()) * double(state.iterations()),
+                                                    benchmark::Counter::kIsRate);
+  b.solver.setEye(b.eye);
+}
+BENCHMARK(verticesOfANewEye)
+    ->ArgNames({"cylinder", "mm"})
+    ->ArgsProduct({{0, 1}, {0, 10, 50}})
+    ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 
 void mapsForANewEye(benchmark::State& state) {

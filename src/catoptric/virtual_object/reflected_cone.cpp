@@ -36,17 +36,18 @@ ReflectedCone makeReflectedCone(const ReflectorMesh& mesh, const ReflectedRays& 
   // Within a triangle normals are interpolated: its rays stay between those of the corners, but for terms of
   // the second order.
   constexpr double kBetween = 0.25, kLeast = 1e-3;
-  double widest = 0, largest = 0;
+  double widest = 1, largest = 1;  // cosines
   for (std::size_t t = 0; t < mesh.ordinaryCount(); ++t) {
     if (!rays.isMapped[t]) continue;
     for (std::size_t k = 0; k < 3; ++k) {
       const dvec3& direction = rays.directions[mesh.corners()[3 * t + k]];
       const dvec3& next = rays.directions[mesh.corners()[3 * t + (k + 1) % 3]];
-      widest = std::max(widest, angleBetween(direction, cone.axis));
-      largest = std::max(largest, angleBetween(direction, next));
+      widest = std::min(widest, glm::dot(direction, cone.axis));
+      largest = std::min(largest, glm::dot(direction, next));
     }
   }
-  cone.halfAngleRadians = widest + kBetween * largest + kLeast;
+  const auto angleOf = [](double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); };
+  cone.halfAngleRadians = angleOf(widest) + kBetween * angleOf(largest) + kLeast;
   return cone;
 }
 

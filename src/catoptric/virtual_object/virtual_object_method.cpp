@@ -62,11 +62,15 @@ Solver VirtualObjectMethod::equipSolver(const scene::WorldGeometry& world, std::
 }
 
 void VirtualObjectMethod::prepareSolver(const scene::WorldGeometry& world, const dvec3& drawEye,
-                                        Prepared& prepared) {
+                                        Prepared& prepared) const {
   if (!prepared.solver) {
     const core::Box& bounds = world.bounds;
     const double farRadius = glm::length(bounds.centre() - prepared.mesh.centre()) + bounds.radius();
-    prepared.solver = std::make_unique<VirtualObjectSolver>(prepared.mesh, drawEye, farRadius);
+    SolverOptions options;
+    if (solver_ ==
+        Solver::Refined)  // its maps only say where to start; a new eye pays for each of their pixels
+      options.mapResolution /= 2, options.seedResolution /= 2;
+    prepared.solver = std::make_unique<VirtualObjectSolver>(prepared.mesh, drawEye, farRadius, options);
   } else if (prepared.solver->eye() != drawEye) {
     prepared.solver->setEye(drawEye);
   }

@@ -89,7 +89,7 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   Prepared& prepareReflector(const raster::FrameContext& frame, const raster::Chain& chain,
                              const dvec3& drawEye);
   /// Makes the solver, or gives it the eye.
-  static void prepareSolver(const scene::WorldGeometry& world, const dvec3& drawEye, Prepared& prepared);
+  void prepareSolver(const scene::WorldGeometry& world, const dvec3& drawEye, Prepared& prepared) const;
   /// Of all vertices that may be reflected; `wanted`: only of these runs (empty: of all).
   void computeVirtualVertices(raster::FrameContext& frame, const raster::Chain& chain, Prepared& prepared,
                               std::span<const std::uint8_t> wanted = {}) const;

@@ -3,6 +3,7 @@
 // points to a small part of a pixel, the same choice of what is reflected.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -118,6 +119,40 @@ TEST(Lanes, findTheSameReflectionPointsToASmallPartOfAPixel) {
     EXPECT_LT(difference.largestPx, 0.05) << c.name;
     EXPECT_LE(difference.otherKind, 6) << c.name;
   }
+}
+
+TEST(Lanes, whereTheyBeginDecidesNothing) {
+  const ReflectorMesh mesh = meshOf(geometry::makeCylinderSide(0.3, 1.6, 96, 12, false));
+  std::mt19937 random(12);
+  std::vector<vec3> points;
+  for (int i = 0; i < 3000; ++i)
+    points.emplace_back(mesh.centre() + (1.1 + 0.001 * i) * mesh.radius() * randomDirection(random));
+  std::vector<vec3> placed(points.size()), placedAnew(points.size());
+  std::vector<VertexKind> kinds(points.size()), kindsAnew(points.size());
+  VirtualObjectSolver solver(mesh, {0.4, 0.9, 2.6}, 20.0);
+  LanePlaces places;
+  solver.compute(Solver::Refined, points, placed, kinds, {}, {}, &places);
+  const std::size_t known = std::size_t(
+      std::count_if(places.triangles.begin(), places.triangles.end(), [](std::int32_t t) { return t >= 0; }));
+  EXPECT_GT(known, points.size() / 3);
+  for (const dvec3 eye : {dvec3(0.41, 0.9, 2.6), dvec3(0.4, 1.6, 2.2), dvec3(-2.6, 0.4, -0.4)}) {
+    solver.setEye(eye);
+    solver.compute(Solver::Refined, points, placed, kinds, {}, {}, &places);
+    solver.compute(Solver::Refined, points, placedAnew, kindsAnew);
+    int otherKind = 0;
+    double largestPx = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      otherKind += kinds[i] != kindsAnew[i];
+      if (kinds[i] != VertexKind::Reflected || kindsAnew[i] != kinds[i]) continue;
+      const double angle = angleBetween(dvec3(placed[i]) - eye, dvec3(placedAnew[i]) - eye);
+      largestPx = std::max(largestPx, angle * pixelsPerRadian(mesh, eye));
+    }
+    EXPECT_LT(largestPx, 0.05);
+    EXPECT_LE(otherKind, 3);
+  }
+  places.triangles.assign(points.size(), 1 << 30);  // of a mirror that had more triangles
+  solver.compute(Solver::Refined, points, placed, kinds, {}, {}, &places);
+  EXPECT_EQ(kinds, kindsAnew);
 }
 
 TEST(Lanes, nothingFiniteComesOfNothing) {
