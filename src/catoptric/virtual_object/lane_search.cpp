@@ -77,13 +77,14 @@ struct Search {
   Triangles t;
 };
 
-/// Where the eye sees a target on the mirror, without walking there: the hidden map names the triangle. Lanes
-/// in which it shows none keep theirs.
-CATOPTRIC_INLINE void jumpTo(const LaneView& view, const LaneVector& target, Search& s) {
+/// To where the eye sees a target on the mirror, without walking there: the hidden map names the triangle.
+/// Returns the lanes in which it does; the others stay.
+CATOPTRIC_INLINE EightInts jumpTo(const LaneView& view, const EightInts& which, const LaneVector& target,
+                                  Search& s) {
   const MapPlace place = findPlace(view.hiddenMap, target);
   EightInts shown;
   for (int i = 0; i < kLanes; ++i) shown[i] = std::int32_t(view.hiddenIds[std::uint32_t(place.index[i])]);
-  const EightInts isShown = place.isInside & (shown != std::int32_t(core::kNoId));
+  const EightInts isShown = which & place.isInside & (shown != std::int32_t(core::kNoId));
   s.triangle = isShown ? shown : s.triangle;
   gather(view.triangles, s.triangle, s.t);
   const LaneVector d = target - s.t.position0;
@@ -91,9 +92,9 @@ CATOPTRIC_INLINE void jumpTo(const LaneView& view, const LaneVector& target, Sea
   const Eight u = larger(s.t.gram11 * a + s.t.gram12 * b, Eight{}),
               v = larger(s.t.gram12 * a + s.t.gram22 * b, Eight{});
   const Eight inside = 1.0f / larger(u + v, Eight{} + 1.0f);
-  const Eight middle = Eight{} + 1.0f / 3;
-  s.u = isShown ? u * inside : middle;
-  s.v = isShown ? v * inside : middle;
+  s.u = isShown ? u * inside : s.u;
+  s.v = isShown ? v * inside : s.v;
+  return isShown;
 }
 
 /// Step 1.
@@ -112,7 +113,9 @@ CATOPTRIC_INLINE void start(const LaneView& view, const LaneVector& local, Searc
   std::memcpy(&farTriangle, &seeds[7], sizeof farTriangle);
   s.triangle = nearWeight >= 0.5f ? nearTriangle : farTriangle;
   const LaneVector near{{seeds[0], seeds[1], seeds[2]}}, far{{seeds[4], seeds[5], seeds[6]}};
-  jumpTo(view, toLocal(view, nearWeight * near + (1.0f - nearWeight) * far), s);
+  s.u = s.v = Eight{} + 1.0f / 3;
+  static_cast<void>(
+      jumpTo(view, ~EightInts{}, toLocal(view, nearWeight * near + (1.0f - nearWeight) * far), s));
 }
 
 /// Some lanes to where the maps say; false if there are none.
@@ -132,47 +135,20 @@ CATOPTRIC_INLINE bool restart(const LaneView& view, const EightInts& which, cons
 struct Walk {
   LaneFloats u, v, stepU, stepV;
   std::uint32_t triangle[kLanes];
-  unsigned lost = 0;  ///< lanes that got nowhere
+  unsigned stuck = 0;  ///< lanes that got nowhere
 };
 
-/// To the triangle that the hidden map shows where lane i's step ends; false where it shows none.
-bool jumpAlone(const LaneView& view, Walk& walk, int i) {
-  const LaneMap& map = view.hiddenMap;
-  const LaneTriangle& t = view.triangles[walk.triangle[i]];
-  const vec3 target =
-      t.position0 + (walk.u[i] + walk.stepU[i]) * t.edge1 + (walk.v[i] + walk.stepV[i]) * t.edge2;
-  const vec3 d = target - map.centre;
-  const float length = std::sqrt(glm::dot(d, d));
-  const float scale = 1.0f / std::sqrt(2.0f * length * (glm::dot(map.z, d) + length));
-  const vec2 px = (vec2(glm::dot(map.x, d), glm::dot(map.y, d)) * scale - map.lower) * map.pixelsPerUnit;
-  const float size = float(map.size);
-  if (!(px.x >= 0 && px.y >= 0 && px.x < size && px.y < size)) return false;
-  const std::uint32_t id = view.hiddenIds[std::size_t(int(px.y) * map.size + int(px.x))];
-  if (id == core::kNoId) return false;
-  const LaneTriangle& there = view.triangles[id];
-  const vec3 offset = target - there.position0;
-  const float a = glm::dot(there.edge1, offset), b = glm::dot(there.edge2, offset);
-  const float u = std::max(there.gram11 * a + there.gram12 * b, 0.0f),
-              v = std::max(there.gram12 * a + there.gram22 * b, 0.0f);
-  const float inside = 1.0f / std::max(u + v, 1.0f);
-  walk.triangle[i] = id, walk.u[i] = u * inside, walk.v[i] = v * inside;
-  return true;
-}
-
-void walkAlone(const LaneView& view, unsigned lanes, unsigned last, Walk& walk) {
+void walkAlone(std::span<const LaneTriangle> triangles, unsigned lanes, Walk& walk) {
   struct Place {
     std::uint32_t triangle;
     float u, v;
   };
   for (; lanes != 0; lanes &= lanes - 1) {
     const int i = std::countr_zero(lanes);
-    const float u = walk.u[i] + walk.stepU[i], v = walk.v[i] + walk.stepV[i];
-    const bool isNear = std::max({-u, -v, u + v - 1.0f}) < kWalkable || ((last >> i) & 1u) != 0;
-    if (!isNear && jumpAlone(view, walk, i)) continue;
     Place at{walk.triangle[i], walk.u[i], walk.v[i]};
-    if (!walkOverMesh(view.triangles, at, walk.stepU[i], walk.stepV[i], kMostCrossings) &&
+    if (!walkOverMesh(triangles, at, walk.stepU[i], walk.stepV[i], kMostCrossings) &&
         std::max({-at.u, -at.v, at.u + at.v - 1.0f}) <= 0)
-      walk.lost |= 1u << i;
+      walk.stuck |= 1u << i;
     walk.triangle[i] = at.triangle, walk.u[i] = at.u, walk.v[i] = at.v;
   }
 }
@@ -180,15 +156,19 @@ void walkAlone(const LaneView& view, unsigned lanes, unsigned last, Walk& walk) 
 /// Step 3 for lanes whose step leaves the triangle; returns those that got nowhere.
 CATOPTRIC_INLINE EightInts walkOn(const LaneView& view, const EightInts& leaving, const EightInts& last,
                                   const Law& law, Search& s) {
+  const Eight u = s.u + law.stepU, v = s.v + law.stepV;
+  const EightInts isFar = leaving & ~last & (outsideBy(u, v) >= kWalkable);
+  EightInts walking = leaving;
+  if (toBits(isFar) != 0) walking &= ~jumpTo(view, isFar, s.t.position0 + u * s.t.edge1 + v * s.t.edge2, s);
   Walk walk;
   store(walk.u, s.u), store(walk.v, s.v);
   store(walk.stepU, law.stepU), store(walk.stepV, law.stepV);
   std::memcpy(walk.triangle, &s.triangle, sizeof walk.triangle);
-  walkAlone(view, toBits(leaving), toBits(last), walk);
+  walkAlone(view.triangles, toBits(walking), walk);
   s.u = load(walk.u), s.v = load(walk.v);
   std::memcpy(&s.triangle, walk.triangle, sizeof walk.triangle);
   gather(view.triangles, s.triangle, s.t);
-  return fromBits(walk.lost);
+  return fromBits(walk.stuck);
 }
 
 /// Step 1: at the places of the last frame, those without one at the maps' place.

@@ -125,6 +125,7 @@ TEST(Lanes, whereTheyBeginDecidesNothing) {
   const ReflectorMesh mesh = meshOf(geometry::makeCylinderSide(0.3, 1.6, 96, 12, false));
   std::mt19937 random(12);
   std::vector<vec3> points;
+  points.reserve(3000);
   for (int i = 0; i < 3000; ++i)
     points.emplace_back(mesh.centre() + (1.1 + 0.001 * i) * mesh.radius() * randomDirection(random));
   std::vector<vec3> placed(points.size()), placedAnew(points.size());
