@@ -21,7 +21,7 @@ constexpr double kRestSeconds = 0.25;  // after this long without a change the v
 constexpr double kMessageSeconds = 5.0;
 constexpr double kIdleSeconds = 1.0;  // an idle window still looks after its file and its messages
 constexpr int kDrawsAfterEvent = 3;
-constexpr double kShowSeconds = 0.05;  // how old the window may be while a frame is drawn
+constexpr double kShowSeconds = 0.15;  // how old the window may be while a frame is drawn
 
 double secondsSince(ViewerLoop::Clock::time_point start) {
   return std::chrono::duration<double>(ViewerLoop::Clock::now() - start).count();
@@ -94,25 +94,30 @@ void ViewerLoop::run() {
     drawPicture(model_, pictures_, windowPx_);
     drawPanels(model_, maps_);
     handleInput(model_, window_.takeKeys(), windowPx_);
-    if (isWorthShowing()) {
-      window_.endFrame();
-      hasNewPicture_ = false;
-      lastShown_ = Clock::now();
-    } else {
-      window_.dropFrame();
-    }
     advanceTime();
     grantWishes();
-    askForFrame();
+    askForFrame();  // before the window is drawn: the next frame is drawn meanwhile
     askForTruth();
     askForMaps();
     askForElsewhere();
+    show();
     if (options_.watch && watched_.hasChanged() && !model_.isLoading) {
       LoadRequest again = model_.loaded.request;
       again.keepsCamera = true;
       load(again);
     }
   }
+}
+
+void ViewerLoop::show() {
+  if (!isWorthShowing()) return window_.dropFrame();
+  window_.endFrame();
+  lastShown_ = Clock::now();
+  if (hasNewPicture_ && !model_.frame.request.options.withSeen)
+    options_.sayDetail(fmt::format("moving: {}x{}, {:.0f} ms, {:.0f} ms after the input",
+                                   model_.frame.picture.width(), model_.frame.picture.height(),
+                                   model_.frame.wholeMs, 1e3 * secondsSince(model_.frame.request.changed)));
+  hasNewPicture_ = false;
 }
 
 /// A mouse sends a hundred moves a second; drawing the window for each would take a core from the frame that
@@ -226,10 +231,6 @@ void ViewerLoop::takeFrame(FrameResult result) {
   hasNewPicture_ = true;
   model_.frame = std::move(result);
   drawsLeft_ = std::max(drawsLeft_, 1);
-  if (!model_.frame.request.options.withSeen)
-    options_.sayDetail(fmt::format("moving: {}x{}, {:.0f} ms, {:.0f} ms after the input",
-                                   model_.frame.picture.width(), model_.frame.picture.height(),
-                                   model_.frame.wholeMs, 1e3 * secondsSince(model_.frame.request.changed)));
   if (isFrameSettled() && !isFirstInFull_)
     options_.sayDetail(fmt::format("first picture in full after {:.0f} ms", 1e3 * secondsSince(start_)));
   isFirstInFull_ = isFirstInFull_ || isFrameSettled();

@@ -40,6 +40,7 @@ class ViewerLoop {
   void takeMaps(MapsResult result);
   void openDropped();
   void grantWishes();
+  void show();
   void writeScreenshot();
   void advanceTime();
   void switchRecording();

@@ -162,7 +162,7 @@ void ViewerLoop::askForElsewhere() {
 }
 
 void ViewerLoop::askForMaps() {
-  if (!model_.view.mapsOf || mapper_.isBusy()) return;
+  if (!model_.view.mapsOf || !model_.view.showPanels || mapper_.isBusy()) return;
   const MapsRequest request{model_.geometry, model_.view.camera.eye, *model_.view.mapsOf};
   if (askedMaps_.geometry == request.geometry && askedMaps_.eye == request.eye &&
       askedMaps_.reflector == request.reflector)
