@@ -11,6 +11,7 @@
 #include <malloc.h>
 #endif
 
+#include "catoptric/core/error.h"
 #include "viewer/camera_control.h"
 #include "viewer/input.h"
 
@@ -75,6 +76,7 @@ ViewerLoop::ViewerLoop(const ViewerOptions& options)
   model_.loadStart = start_;
   model_.loadingName = std::filesystem::path(options.scene.source).filename().string();
   model_.isLoading = true;
+  window_.beforeDisplayIsLost([this] { rescueEdits(); });
   if (options.scene.source == "-") load(options.scene);
 }
 
@@ -111,7 +113,12 @@ void ViewerLoop::run() {
 
 void ViewerLoop::show() {
   if (!isWorthShowing()) return window_.dropFrame();
-  window_.endFrame();
+  try {
+    window_.endFrame();
+  } catch (const core::Error&) {
+    rescueEdits();
+    throw;
+  }
   lastShown_ = Clock::now();
   if (hasNewPicture_ && !model_.frame.request.options.withSeen)
     options_.sayDetail(fmt::format("moving: {}x{}, {:.0f} ms, {:.0f} ms after the input",
@@ -147,15 +154,7 @@ void ViewerLoop::takeResults() {
   attempt([&] {
     if (auto result = loader_.take()) takeScene(std::move(*result));
   });
-  attempt([&] {
-    try {
-      if (auto result = drawer_.take()) takeFrame(std::move(*result));
-    } catch (...) {
-      model_.recording.reset();
-      model_.view.isPlaying = false;
-      throw;
-    }
-  });
+  attempt([&] { takeFrameOrTryAgain(); });
   attempt([&] {
     if (auto result = tracer_.take()) takeTruth(std::move(*result));
   });
@@ -167,6 +166,24 @@ void ViewerLoop::takeResults() {
   model_.isTracing = tracer_.isBusy();
   if (!model_.message.empty() && !model_.isError && secondsSince(messageTime_) > kMessageSeconds)
     model_.message.clear();
+}
+
+/// The drawer's context may be lost and made anew; twice in a row is a failure like any other.
+void ViewerLoop::takeFrameOrTryAgain() {
+  try {
+    if (auto result = drawer_.take()) takeFrame(std::move(*result));
+  } catch (const std::exception& error) {
+    const auto* known = dynamic_cast<const core::Error*>(&error);
+    if (known != nullptr && known->code() == "gl.lost" && !hasLostContext_) {
+      hasLostContext_ = true;
+      if (model_.recording && !asked_.recordFile.empty()) --model_.recording->frames;
+      asked_ = {};
+      return options_.sayDetail(error.what());
+    }
+    model_.recording.reset();
+    model_.view.isPlaying = false;
+    throw;
+  }
 }
 
 /// A camera of the scene that moves takes the eye with it.
@@ -219,6 +236,7 @@ void ViewerLoop::takeFrame(FrameResult result) {
   }
   if (!model_.frame.frame)
     options_.sayDetail(fmt::format("first picture after {:.0f} ms", 1e3 * secondsSince(start_)));
+  hasLostContext_ = false;
   moving_.learn(result.request.scale, result.wholeMs);
   model_.history.add(result);
   if (result.geometry) {
