@@ -152,7 +152,7 @@ void ViewerLoop::askForElsewhere() {
   FrameRequest request = model_.frame.request;
   request.recordFile.clear();
   request.elsewhere =
-      ElsewhereRequest{view.elsewhere, {*view.insideOf, view.marks, kInsideWidthPx, kInsideHeightPx}};
+      ElsewhereRequest{view.elsewhere, {*view.insideOf, view.marks, view.elsewherePx.x, view.elsewherePx.y}};
   if (askedElsewhere_.elsewhere && askedElsewhere_.view == request.view &&
       isSameView(askedElsewhere_.elsewhere->camera, view.elsewhere) &&
       askedElsewhere_.elsewhere->options == request.elsewhere->options)

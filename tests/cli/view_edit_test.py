@@ -33,6 +33,7 @@ class Sessions(support.CommandTest):
         self.refuse_session(lambda s: s.update(options={"bounces": 1e9}), "/options/bounces")
         self.refuse_session(lambda s: s.update(options={"method": "magic"}), "raytrace")
         self.refuse_session(lambda s: s.update(options={"bounce": 1}), "/options/bounce")
+        self.refuse_session(lambda s: s.update(options={"zexels": {"references": 3}}), "/options/zexels/references")
         self.refuse_session(lambda s: s.update(materials=[{"material": 0, "roughness": 2}]), "/materials/0/roughness")
         self.refuse_session(lambda s: s.update(moved={"object": 0}), "/moved")
         self.refuse_session(lambda s: s.update(scene_options=["--nonsense"]), "/scene_options")
@@ -131,13 +132,21 @@ class Editing(WindowTest):
         self.assert_rescued(1)
 
     def test_inside_the_method(self):
-        viewer = self.view("scene.gltf", "--size", "700x560", "--camera", "front", "--method", "zexel")
+        viewer = self.view("scene.gltf", "--size", "700x560", "--camera", "front", "--method", "zexel", "--zexel-mark",
+                           "--zexel-size", "64", "--zexel-without", "coherence")
         viewer.wait_for_window()
         viewer.wait_for_line(SETTLED)
         viewer.after("from elsewhere", lambda: viewer.do("key", "i"))
         viewer.after("from elsewhere", lambda: viewer.drag((400, 400), (450, 420)))  # the second camera alone moves
         self.assertEqual(viewer.count(SETTLED), 1, viewer.said())
         viewer.do("key", "i")
+        # Options of the method are in the copied command and in the session.
+        viewer.do("key", "ctrl+c")
+        window_support.wait_for(lambda: viewer.read(viewer.output), "command line")
+        self.assertIn(" --zexel-size=64 --zexel-without=coherence --zexel-mark ", viewer.read(viewer.output))
+        viewer.after("wrote ", lambda: viewer.do("key", "ctrl+s"))
+        zexels = json.loads(self.read(SESSION))["options"]["zexels"]
+        self.assertEqual((zexels["size"], zexels["mark"], zexels["coherence"], zexels["splat"]), (64, True, False, "footprint"))
         self.close(viewer)
 
     def test_time_plays_and_frames_are_recorded(self):
