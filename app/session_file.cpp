@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <filesystem>
 
 #include "catoptric/core/file.h"
@@ -59,6 +60,56 @@ void readCamera(const SessionValue& value, viewer::Session& session) {
     value.refuse("a camera: its eye is its target, or its up has no length");
 }
 
+std::string_view splatName(depth_reflection_map::Splat splat) {
+  constexpr std::array<std::string_view, 3> kNames{"point", "square", "footprint"};
+  return kNames[std::size_t(splat)];
+}
+
+std::string_view visibilityName(depth_reflection_map::Visibility visibility) {
+  return visibility == depth_reflection_map::Visibility::Ordered ? "ordered" : "zbuffer";
+}
+
+/// Of the method zexel. Bounds as on the command line.
+void readZexels(const SessionValue& value, depth_reflection_map::ZexelOptions& zexel) {
+  value.forMembers([&](const std::string& name, const SessionValue& member) {
+    if (name == "references")
+      zexel.references = member.integer(1, 2);
+    else if (name == "hemisphere")
+      zexel.hemisphere = member.integer(1, 4096);
+    else if (name == "size")
+      zexel.size = member.integer(8, 8192);
+    else if (name == "splat")
+      zexel.splat = member.choice(depth_reflection_map::Splat::Footprint, splatName);
+    else if (name == "visibility")
+      zexel.visibility = member.choice(depth_reflection_map::Visibility::ZBuffer, visibilityName);
+    else if (name == "hierarchy")
+      zexel.isHierarchical = member.flag();
+    else if (name == "regions")
+      zexel.skipsRegions = member.flag();
+    else if (name == "coherence")
+      zexel.isCoherent = member.flag();
+    else if (name == "continuation")
+      zexel.continuesSurfaces = member.flag();
+    else if (name == "mark")
+      zexel.marksExposures = member.flag();
+    else
+      member.refuse("an option of zexels");
+  });
+}
+
+Json makeZexelsJson(const depth_reflection_map::ZexelOptions& zexel) {
+  return {{"references", zexel.references},
+          {"hemisphere", zexel.hemisphere},
+          {"size", zexel.size},
+          {"splat", splatName(zexel.splat)},
+          {"visibility", visibilityName(zexel.visibility)},
+          {"hierarchy", zexel.isHierarchical},
+          {"regions", zexel.skipsRegions},
+          {"coherence", zexel.isCoherent},
+          {"continuation", zexel.continuesSurfaces},
+          {"mark", zexel.marksExposures}};
+}
+
 void readOptions(const SessionValue& value, viewer::Session& session) {
   renderer::FrameOptions& frame = session.frame;
   value.forMembers([&](const std::string& name, const SessionValue& member) {
@@ -88,6 +139,8 @@ void readOptions(const SessionValue& value, viewer::Session& session) {
       frame.merge = member.choice(renderer::Merge::Texture, renderer::mergeName);
     else if (name == "texture_scale")
       frame.textureScale = member.number(0.01, 1);
+    else if (name == "zexels")
+      readZexels(member, frame.zexel);
     else if (name == "exposure")
       session.exposure = float(member.number(1e-6, 1e6));
     else if (name == "resolution")
@@ -198,6 +251,7 @@ Json makeOptionsJson(const viewer::Session& session) {
                {"comparison", std::string(comparisonName(session.comparison))},
                {"split", session.split},
                {"playing", session.isPlaying}};
+  if (frame.method == renderer::Method::Zexel) options["zexels"] = makeZexelsJson(frame.zexel);
   if (!frame.bakedFile.empty()) options["baked"] = frame.bakedFile;
   return options;
 }

@@ -16,6 +16,7 @@
 #include "shared_options.h"
 #include "terminal.h"
 #include "viewer/viewer.h"
+#include "zexel_options.h"
 
 namespace catoptric::app {
 namespace {
@@ -204,6 +205,7 @@ Command makeViewCommand() {
                 declareMethod(arguments, options->frame.frame, options->plainMap);
                 declarePicture(arguments, options->frame);
                 declareMerge(arguments, options->frame.frame);
+                declareZexels(arguments, options->frame.frame.zexel);
                 declareCamera(arguments, options->camera);
                 declareScene(arguments, options->scene);
                 declareOutput(arguments, options->output);

@@ -56,6 +56,8 @@ void declareZexels(Arguments& arguments, depth_reflection_map::ZexelOptions& opt
               false;
         }
       });
+  arguments.flag("--zexel-mark", "Exposures in magenta instead: what no zexel, or no cube, has seen",
+                 options.marksExposures);
 }
 
 }  // namespace catoptric::app

@@ -3,11 +3,39 @@
 
 #include <fmt/format.h>
 
+#include <functional>
+#include <utility>
+
 namespace catoptric::viewer {
 namespace {
 
 std::string vectorText(const dvec3& v) {
   return fmt::format("{},{},{}", v.x, v.y, v.z);
+}
+
+using AddOption = std::function<void(const std::string& option, const std::string& value)>;
+
+void addZexels(const depth_reflection_map::ZexelOptions& options, const AddOption& add) {
+  using namespace depth_reflection_map;
+  const ZexelOptions standard;
+  if (options.references != standard.references)
+    add("--zexel-references", fmt::format("{}", options.references));
+  if (options.hemisphere != standard.hemisphere)
+    add("--zexel-hemisphere", fmt::format("{}", options.hemisphere));
+  if (options.size != standard.size) add("--zexel-size", fmt::format("{}", options.size));
+  if (options.splat != standard.splat)
+    add("--zexel-splat", options.splat == Splat::Point ? "point" : "square");
+  if (options.visibility != standard.visibility) add("--zexel-visibility", "zbuffer");
+  if (!options.cacheFile.empty()) add("--zexel-cache", options.cacheFile);
+  std::string without;
+  const std::pair<bool, const char*> parts[] = {{options.isHierarchical, "hierarchy"},
+                                                {options.skipsRegions, "regions"},
+                                                {options.isCoherent, "coherence"},
+                                                {options.continuesSurfaces, "continuation"}};
+  for (const auto& [isOn, name] : parts)
+    if (!isOn) without.append(without.empty() ? "" : ",").append(name);
+  if (!without.empty()) add("--zexel-without", without);
+  if (options.marksExposures) add("--zexel-mark", "");
 }
 
 }  // namespace
@@ -57,6 +85,7 @@ std::string makeCommandText(const LoadRequest& scene, const scene::Camera& camer
     add("--merge", std::string(renderer::mergeName(options.merge)));
   if (merges && options.merge == renderer::Merge::Texture && options.textureScale != standard.textureScale)
     add("--texture-scale", fmt::format("{}", options.textureScale));
+  if (options.method == renderer::Method::Zexel) addZexels(options.zexel, add);
   if (!scene.environment.empty()) add("--environment", scene.environment);
   if (exposure != 1.0f) add("--exposure", fmt::format("{}", exposure));
   add("--eye", vectorText(camera.eye));

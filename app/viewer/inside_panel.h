@@ -7,8 +7,6 @@
 
 namespace catoptric::viewer {
 
-inline constexpr int kInsideWidthPx = 520, kInsideHeightPx = 390;
-
 /// Opens it for a mirror; the second camera starts beside the eye, with mirror and eye in view.
 void lookInside(Model& model, std::uint32_t reflector);
 

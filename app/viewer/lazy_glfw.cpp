@@ -58,6 +58,7 @@ CATOPTRIC_GLFW(GLFWwindow*, glfwCreateWindow,
                (width, height, title, monitor, share))
 CATOPTRIC_GLFW(void, glfwDestroyWindow, (GLFWwindow * window), (window))
 CATOPTRIC_GLFW(void, glfwMakeContextCurrent, (GLFWwindow * window), (window))
+CATOPTRIC_GLFW(GLFWglproc, glfwGetProcAddress, (const char* name), (name))
 CATOPTRIC_GLFW(void, glfwSwapInterval, (int interval), (interval))
 CATOPTRIC_GLFW(void, glfwSwapBuffers, (GLFWwindow * window), (window))
 CATOPTRIC_GLFW(void, glfwSetWindowUserPointer, (GLFWwindow * window, void* pointer), (window, pointer))

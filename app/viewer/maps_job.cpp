@@ -51,9 +51,10 @@ MapsWorker::Work makeMapsWork() {
     const virtual_object::VirtualObjectSolver solver(*kept->mesh, request.eye, farRadius);
     result.canReflect = solver.canReflect();
     result.triangles = kept->mesh->triangles().size();
-    result.nearMap = sketch::drawMap(solver.nearMap().ids, true);
-    result.farMap = sketch::drawMap(solver.farMap().ids, true);
-    result.hiddenMap = sketch::drawMap(solver.hiddenMap().ids, false);
+    const std::vector<sketch::Colour> colours = sketch::colourTriangles(*kept->mesh);
+    result.nearMap = sketch::drawMap(solver.nearMap().ids, true, colours);
+    result.farMap = sketch::drawMap(solver.farMap().ids, true, colours);
+    result.hiddenMap = sketch::drawMap(solver.hiddenMap().ids, false, colours);
     result.findPlaces = makeFinder(solver);
     return result;
   };

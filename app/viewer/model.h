@@ -37,7 +37,8 @@ struct ViewState {
   bool showPanels = true, showHelp = false;
   std::optional<std::uint32_t> mapsOf;    ///< reflector whose explosion maps are shown
   std::optional<std::uint32_t> insideOf;  ///< and whose method is looked at from elsewhere ...
-  scene::Camera elsewhere;                ///< ... by this camera
+  scene::Camera elsewhere;                ///< ... by this camera ...
+  ivec2 elsewherePx{520, 390};            ///< ... into a picture of this size
   raster::MarkOptions marks;
 };
 

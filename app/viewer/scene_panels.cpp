@@ -12,7 +12,7 @@
 namespace catoptric::viewer {
 namespace {
 
-constexpr float kMapEdge = 200, kMapsWidth = 3 * kMapEdge + 50;  // three maps, gaps, borders
+constexpr float kMapEdge = 256;  // a map's own size
 
 std::string describeShape(const scene::Reflector& reflector) {
   const bool isFreeForm = reflector.shape == scene::ReflectorShape::Extrusion ||
@@ -73,7 +73,9 @@ void drawMap(const char* title, const ShownPicture& picture, const std::optional
   ImGui::BeginGroup();
   ImGui::TextUnformatted(title);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  if (!picture.isEmpty())
+  if (picture.isEmpty())
+    ImGui::Dummy(ImVec2(kMapEdge, kMapEdge));  // the window keeps its size
+  else
     ImGui::Image(picture.imguiId(), ImVec2(kMapEdge, kMapEdge), ImVec2(0, 1), ImVec2(1, 0));
   if (place && glm::all(glm::greaterThanEqual(*place, dvec2(0))) &&
       glm::all(glm::lessThanEqual(*place, dvec2(1)))) {
@@ -117,35 +119,34 @@ void drawReflectors(Model& model) {
 void drawMaps(Model& model, const MapPictures& maps) {
   if (!model.view.mapsOf) return;
   bool isShown = true;
-  // At the right edge, but whole: ImGui does not know its size yet.
-  ImGui::SetNextWindowPos(ImVec2(std::max(10.0f, ImGui::GetIO().DisplaySize.x - kMapsWidth), 10),
-                          ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowPos(ImVec2(ImGui::GetIO().DisplaySize.x - 10, 10), ImGuiCond_FirstUseEver,
+                          ImVec2(1, 0));
   ImGui::SetNextWindowBgAlpha(0.9f);
   if (ImGui::Begin("explosion maps", &isShown,
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
     const auto& reflectors = model.geometry->reflectors;
     if (*model.view.mapsOf < reflectors.size())
       ImGui::TextUnformatted(reflectors[*model.view.mapsOf].name.c_str());
-    if (model.maps && model.maps->request.geometry == model.geometry &&
-        model.maps->request.reflector == *model.view.mapsOf) {
-      if (!model.maps->canReflect) {
-        ImGui::TextUnformatted("flat, or the eye sees none of its front: it has no maps");
-      } else {
-        ImGui::TextUnformatted(
-            fmt::format("{} triangles, a colour each; dim: extension polygons", model.maps->triangles)
-                .c_str());
-        const std::optional<MapPlaces> places = findPlaces(model);
-        const auto onSphere = places ? std::optional(places->explosion) : std::nullopt;
-        drawMap("near", maps.nearMap, onSphere);
-        ImGui::SameLine();
-        drawMap("far", maps.farMap, onSphere);
-        ImGui::SameLine();
-        drawMap("hidden", maps.hiddenMap, places ? std::optional(places->hidden) : std::nullopt);
-        ImGui::TextUnformatted("cross: where the scene point under the mouse is looked up");
-      }
-    } else {
+    const bool isThere = model.maps && model.maps->request.geometry == model.geometry &&
+                         model.maps->request.reflector == *model.view.mapsOf;
+    static const ShownPicture kNone;
+    const bool hasMaps = isThere && model.maps->canReflect;
+    if (!isThere)
       ImGui::TextUnformatted("...");
-    }
+    else if (!hasMaps)
+      ImGui::TextUnformatted("flat, or the eye sees none of its front: it has no maps");
+    else
+      ImGui::TextUnformatted(
+          fmt::format("{} triangles, a colour each; dim: extension polygons", model.maps->triangles).c_str());
+    const std::optional<MapPlaces> places = hasMaps ? findPlaces(model) : std::nullopt;
+    const auto onSphere = places ? std::optional(places->explosion) : std::nullopt;
+    drawMap("near", hasMaps ? maps.nearMap : kNone, onSphere);
+    ImGui::SameLine();
+    drawMap("far", hasMaps ? maps.farMap : kNone, onSphere);
+    ImGui::SameLine();
+    drawMap("hidden, as the eye sees it", hasMaps ? maps.hiddenMap : kNone,
+            places ? std::optional(places->hidden) : std::nullopt);
+    ImGui::TextUnformatted("cross: where the scene point under the mouse is looked up");
   }
   ImGui::End();
   if (!isShown) model.view.mapsOf.reset();

@@ -11,6 +11,7 @@
 #include <malloc.h>
 #endif
 
+#include "catoptric/core/error.h"
 #include "viewer/camera_control.h"
 #include "viewer/input.h"
 
@@ -21,7 +22,7 @@ constexpr double kRestSeconds = 0.25;  // after this long without a change the v
 constexpr double kMessageSeconds = 5.0;
 constexpr double kIdleSeconds = 1.0;  // an idle window still looks after its file and its messages
 constexpr int kDrawsAfterEvent = 3;
-constexpr double kShowSeconds = 0.05;  // how old the window may be while a frame is drawn
+constexpr double kShowSeconds = 0.15;  // how old the window may be while a frame is drawn
 
 double secondsSince(ViewerLoop::Clock::time_point start) {
   return std::chrono::duration<double>(ViewerLoop::Clock::now() - start).count();
@@ -75,6 +76,7 @@ ViewerLoop::ViewerLoop(const ViewerOptions& options)
   model_.loadStart = start_;
   model_.loadingName = std::filesystem::path(options.scene.source).filename().string();
   model_.isLoading = true;
+  window_.beforeDisplayIsLost([this] { rescueEdits(); });
   if (options.scene.source == "-") load(options.scene);
 }
 
@@ -94,25 +96,35 @@ void ViewerLoop::run() {
     drawPicture(model_, pictures_, windowPx_);
     drawPanels(model_, maps_);
     handleInput(model_, window_.takeKeys(), windowPx_);
-    if (isWorthShowing()) {
-      window_.endFrame();
-      hasNewPicture_ = false;
-      lastShown_ = Clock::now();
-    } else {
-      window_.dropFrame();
-    }
     advanceTime();
     grantWishes();
-    askForFrame();
+    askForFrame();  // before the window is drawn: the next frame is drawn meanwhile
     askForTruth();
     askForMaps();
     askForElsewhere();
+    show();
     if (options_.watch && watched_.hasChanged() && !model_.isLoading) {
       LoadRequest again = model_.loaded.request;
       again.keepsCamera = true;
       load(again);
     }
   }
+}
+
+void ViewerLoop::show() {
+  if (!isWorthShowing()) return window_.dropFrame();
+  try {
+    window_.endFrame();
+  } catch (const core::Error&) {
+    rescueEdits();
+    throw;
+  }
+  lastShown_ = Clock::now();
+  if (hasNewPicture_ && !model_.frame.request.options.withSeen)
+    options_.sayDetail(fmt::format("moving: {}x{}, {:.0f} ms, {:.0f} ms after the input",
+                                   model_.frame.picture.width(), model_.frame.picture.height(),
+                                   model_.frame.wholeMs, 1e3 * secondsSince(model_.frame.request.changed)));
+  hasNewPicture_ = false;
 }
 
 /// A mouse sends a hundred moves a second; drawing the window for each would take a core from the frame that
@@ -142,15 +154,7 @@ void ViewerLoop::takeResults() {
   attempt([&] {
     if (auto result = loader_.take()) takeScene(std::move(*result));
   });
-  attempt([&] {
-    try {
-      if (auto result = drawer_.take()) takeFrame(std::move(*result));
-    } catch (...) {
-      model_.recording.reset();
-      model_.view.isPlaying = false;
-      throw;
-    }
-  });
+  attempt([&] { takeFrameOrTryAgain(); });
   attempt([&] {
     if (auto result = tracer_.take()) takeTruth(std::move(*result));
   });
@@ -162,6 +166,24 @@ void ViewerLoop::takeResults() {
   model_.isTracing = tracer_.isBusy();
   if (!model_.message.empty() && !model_.isError && secondsSince(messageTime_) > kMessageSeconds)
     model_.message.clear();
+}
+
+/// The drawer's context may be lost and made anew; twice in a row is a failure like any other.
+void ViewerLoop::takeFrameOrTryAgain() {
+  try {
+    if (auto result = drawer_.take()) takeFrame(std::move(*result));
+  } catch (const std::exception& error) {
+    const auto* known = dynamic_cast<const core::Error*>(&error);
+    if (known != nullptr && known->code() == "gl.lost" && !hasLostContext_) {
+      hasLostContext_ = true;
+      if (model_.recording && !asked_.recordFile.empty()) --model_.recording->frames;
+      asked_ = {};
+      return options_.sayDetail(error.what());
+    }
+    model_.recording.reset();
+    model_.view.isPlaying = false;
+    throw;
+  }
 }
 
 /// A camera of the scene that moves takes the eye with it.
@@ -214,6 +236,7 @@ void ViewerLoop::takeFrame(FrameResult result) {
   }
   if (!model_.frame.frame)
     options_.sayDetail(fmt::format("first picture after {:.0f} ms", 1e3 * secondsSince(start_)));
+  hasLostContext_ = false;
   moving_.learn(result.request.scale, result.wholeMs);
   model_.history.add(result);
   if (result.geometry) {
@@ -226,10 +249,6 @@ void ViewerLoop::takeFrame(FrameResult result) {
   hasNewPicture_ = true;
   model_.frame = std::move(result);
   drawsLeft_ = std::max(drawsLeft_, 1);
-  if (!model_.frame.request.options.withSeen)
-    options_.sayDetail(fmt::format("moving: {}x{}, {:.0f} ms, {:.0f} ms after the input",
-                                   model_.frame.picture.width(), model_.frame.picture.height(),
-                                   model_.frame.wholeMs, 1e3 * secondsSince(model_.frame.request.changed)));
   if (isFrameSettled() && !isFirstInFull_)
     options_.sayDetail(fmt::format("first picture in full after {:.0f} ms", 1e3 * secondsSince(start_)));
   isFirstInFull_ = isFirstInFull_ || isFrameSettled();

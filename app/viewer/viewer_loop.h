@@ -36,15 +36,18 @@ class ViewerLoop {
   void takeScene(LoadResult result);
   void useCameraOf(const LoadResult& result);
   void takeFrame(FrameResult result);
+  void takeFrameOrTryAgain();
   void takeTruth(TruthResult result);
   void takeMaps(MapsResult result);
   void openDropped();
   void grantWishes();
+  void show();
   void writeScreenshot();
   void advanceTime();
   void switchRecording();
   void undoOrRedo(bool undo);
   void saveSession();
+  void rescueEdits();
   [[nodiscard]] std::vector<std::string> makeSceneWords() const;
   [[nodiscard]] std::string commandText() const {
     return makeCommandText(model_.loaded.request, model_.view.camera, model_.frameOptions(windowPx_),
@@ -83,7 +86,8 @@ class ViewerLoop {
   bool hasNewPicture_ = false;                      ///< that the window does not show yet
   std::optional<Clock::time_point> oldestUnasked_;  ///< change that no frame was asked for yet
   std::uint64_t view_ = 1;
-  bool isFirstInFull_ = false;  ///< a picture in full has been shown
+  bool isFirstInFull_ = false;   ///< a picture in full has been shown
+  bool hasLostContext_ = false;  ///< of the drawer, and no frame has come since
   FrameRequest asked_, askedElsewhere_;
   MapsRequest askedMaps_;
   std::shared_ptr<std::atomic<bool>> cancelTruth_;  ///< of the pass in hand

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Time that goes on by itself, frames that are recorded, edits that are undone, sessions that are saved.
+// Time that goes on by itself, frames that are recorded, edits that are undone, sessions that are saved, also
+// by an end that nobody has asked for.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -75,6 +76,19 @@ void ViewerLoop::saveSession() {
     tell("wrote " + file + "; catoptric view --session " + quoteForShell(file) + " returns to it");
   } catch (const std::exception& error) {
     tell(error.what(), true);
+  }
+}
+
+/// Of an end that the user has not asked for: what was edited is not lost. A new file, whatever --session
+/// says.
+void ViewerLoop::rescueEdits() {
+  if (!model_.loaded.scene || !model_.view.state.hasEdits()) return;
+  const std::string file = findFreeName(model_.loaded.scene->name + "-rescued", ".session.json");
+  try {
+    options_.saveSession(file, makeSession(model_, windowPx_));
+    options_.say("the edits are kept: catoptric view --session " + quoteForShell(file));
+  } catch (const std::exception& error) {
+    options_.say(std::string("the edits could not be kept: ") + error.what());
   }
 }
 

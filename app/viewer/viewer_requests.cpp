@@ -152,7 +152,7 @@ void ViewerLoop::askForElsewhere() {
   FrameRequest request = model_.frame.request;
   request.recordFile.clear();
   request.elsewhere =
-      ElsewhereRequest{view.elsewhere, {*view.insideOf, view.marks, kInsideWidthPx, kInsideHeightPx}};
+      ElsewhereRequest{view.elsewhere, {*view.insideOf, view.marks, view.elsewherePx.x, view.elsewherePx.y}};
   if (askedElsewhere_.elsewhere && askedElsewhere_.view == request.view &&
       isSameView(askedElsewhere_.elsewhere->camera, view.elsewhere) &&
       askedElsewhere_.elsewhere->options == request.elsewhere->options)
@@ -162,7 +162,7 @@ void ViewerLoop::askForElsewhere() {
 }
 
 void ViewerLoop::askForMaps() {
-  if (!model_.view.mapsOf || mapper_.isBusy()) return;
+  if (!model_.view.mapsOf || !model_.view.showPanels || mapper_.isBusy()) return;
   const MapsRequest request{model_.geometry, model_.view.camera.eye, *model_.view.mapsOf};
   if (askedMaps_.geometry == request.geometry && askedMaps_.eye == request.eye &&
       askedMaps_.reflector == request.reflector)

@@ -13,10 +13,13 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <mutex>
+#include <thread>
 #include <utility>
 
 #include "catoptric/core/error.h"
+#include "catoptric/gl/reset_status.h"
 
 namespace catoptric::viewer {
 namespace {
@@ -38,8 +41,20 @@ void onGlfwError(int, const char* text) {
       "run it in a graphical session, or draw to a file: catoptric render SCENE -o picture.png");
 }
 
+/// What is done before the process ends with its display, and the thread that may do it.
+struct LastWords {
+  std::function<void()> say;
+  std::thread::id thread;
+};
+
+LastWords& lastWords() {
+  static LastWords words;
+  return words;
+}
+
 /// Xlib calls this when the display's server is gone, and ends the process when it returns.
 int onDisplayLost(void*) {
+  if (lastWords().say && lastWords().thread == std::this_thread::get_id()) lastWords().say();
   std::fputs("catoptric: error: the connection to the display was lost\n", stderr);
   std::_Exit(1);  // not exit(): threads are at work
 }
@@ -73,6 +88,7 @@ void setOpen(bool isOpen) {
 
 struct Window::Impl {
   GLFWwindow* window = nullptr;
+  gl::ResetQuery resetQuery = nullptr;
   std::vector<std::string> dropped;
   std::vector<KeyPress> keys;
 
@@ -93,10 +109,13 @@ struct Window::Impl {
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);  // where the driver offers it
     window = glfwCreateWindow(widthPx, heightPx, title.c_str(), nullptr, nullptr);
     if (!window) throwUnavailable("it needs OpenGL 3.3: ");
     glfwMakeContextCurrent(window);
     glfwSwapInterval(1);
+    if (glfwGetWindowAttrib(window, GLFW_CONTEXT_ROBUSTNESS) == GLFW_LOSE_CONTEXT_ON_RESET)
+      resetQuery = reinterpret_cast<gl::ResetQuery>(glfwGetProcAddress("glGetGraphicsResetStatusARB"));
     glfwSetWindowUserPointer(window, this);
     glfwSetDropCallback(window, onDrop);
     glfwSetKeyCallback(window, onKey);  // before ImGui, which calls it in turn
@@ -133,10 +152,15 @@ Window::Window(const std::string& title, int widthPx, int heightPx) : impl_(std:
 
 Window::~Window() {
   setOpen(false);
+  lastWords() = {};
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
   glfwDestroyWindow(impl_->window);
+}
+
+void Window::beforeDisplayIsLost(std::function<void()> say) {
+  lastWords() = {std::move(say), std::this_thread::get_id()};
 }
 
 bool Window::shouldClose() const {
@@ -180,6 +204,7 @@ void Window::endFrame() {
   glClear(GL_COLOR_BUFFER_BIT);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   glfwSwapBuffers(impl_->window);
+  gl::throwIfReset("window", impl_->resetQuery);
 }
 
 void Window::dropFrame() {

@@ -3,6 +3,7 @@
 // context draws panels and shows finished pictures, nothing else (docs/decisions.md).
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,6 +35,10 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
+  /// The process ends when its display does, and does this before, if the calling thread is the one to find
+  /// out. It must not touch the window.
+  void beforeDisplayIsLost(std::function<void()> say);
+
   [[nodiscard]] bool shouldClose() const;
   void close();
   void setTitle(const std::string& title);
@@ -44,6 +49,7 @@ class Window {
 
   /// Between the two, ImGui takes calls.
   void beginFrame();
+  /// Throws core::Error("gl.lost") when the driver has reset the window's context.
   void endFrame();
   /// Instead of endFrame(): input was taken, the window stays as it is.
   void dropFrame();

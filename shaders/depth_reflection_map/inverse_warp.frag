@@ -7,6 +7,7 @@
 
 #include "raster/level_pixels.glsl"
 #include "depth_reflection_map/cube_ray.glsl"
+#include "depth_reflection_map/exposure.glsl"
 
 uniform sampler2D u_parentRadiance;
 uniform sampler2D u_parentPosition;
@@ -16,6 +17,7 @@ uniform uint u_parentWord;
 uniform uint u_chain;
 uniform float u_step;            // radians
 uniform int u_cubeCount;
+uniform bool u_marksExposures;   // what no cube has surely seen
 uniform samplerCube u_color0;
 uniform samplerCube u_position0;  // world point, distance from the centre
 uniform usamplerCube u_ids0;
@@ -44,6 +46,13 @@ void main() {
       answer = other;
       fromSecond = true;
     }
+  }
+  if (u_marksExposures && !answer.isSure) {
+    o_radiance = vec4(kExposureColor, 0.0f);
+    o_position = vec4(direction, kSkyPath);
+    o_weight = vec4(0.0f);
+    o_ids = uvec2(0u, u_chain << 16u);
+    return;
   }
   if (answer.object == 0u) discard;
   vec3 radiance = fromSecond ? textureLod(u_color1, answer.direction, 0.0f).rgb

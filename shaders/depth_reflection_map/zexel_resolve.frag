@@ -6,6 +6,7 @@
 
 #include "raster/level_pixels.glsl"
 #include "depth_reflection_map/reference.glsl"
+#include "depth_reflection_map/exposure.glsl"
 
 uniform sampler2D u_parentRadiance;
 uniform sampler2D u_parentPosition;
@@ -26,6 +27,8 @@ uniform sampler2D u_color1;
 uniform usampler2D u_zexels1;
 uniform mat4 u_zexelFromWorld1;
 uniform vec3 u_centre1;
+
+const uint kExposed = 0xffffffffu;  // instead of a winner
 
 layout(location = 0) out vec4 o_radiance;
 layout(location = 1) out vec4 o_position;
@@ -49,12 +52,19 @@ void main() {
   if (texelFetch(u_parentIds, pixel, 0).y != u_parentWord) discard;
   uint winner = texelFetch(u_winners, pixel - ivec2(u_winnersCorner), 0).x;
   if (winner == 0u) discard;
-  int index = int((winner & 0x3fffffffu) - 1u);
-  bool isFirst = (winner >> 30u) == 0u;
   vec4 parent = texelFetch(u_parentPosition, pixel, 0);
   vec3 direction = readMirrorDirection(u_parentRadiance, u_parentWeight, pixel);
+  if (winner == kExposed) {
+    o_radiance = vec4(kExposureColor, 0.0f);
+    o_position = vec4(direction, kSkyPath);
+    o_weight = vec4(0.0f);
+    o_ids = uvec2(0u, u_chain << 16u);
+    return;
+  }
   ZexelRay ray0 = makeZexelRay(u_zexelFromWorld0, u_centre0, parent.xyz, direction);
   ZexelRay ray1 = makeZexelRay(u_zexelFromWorld1, u_centre1, parent.xyz, direction);
+  int index = int((winner & 0x3fffffffu) - 1u);
+  bool isFirst = (winner >> 30u) == 0u;
   float reach = 2.5f * exp2(u_lod);
   int width = isFirst ? textureSize(u_zexels0, 0).x : textureSize(u_zexels1, 0).x;
   ivec2 start = ivec2(index % width, index / width);

@@ -74,6 +74,13 @@ class Failures(support.CommandTest):
         self.refuse(1, "nothing", *self.render("scene.gltf", "--scene", "nothing"))
         self.assertEqual(self.read("x.png"), b"old")
 
+    def test_a_driver_that_resets(self):
+        os.mkdir(self.path("resets"))
+        self.write("resets/renderer", b"")
+        self.refuse(1, ("has reset the renderer's OpenGL context", "--size"), *self.render("scene.gltf"),
+                    env={"CATOPTRIC_FAKE_GL_RESET": self.path("resets")})
+        self.assert_nothing_left()
+
     def test_no_opengl(self):
         """One line with the remedy; ray tracing needs none of it."""
         without = {"__EGL_VENDOR_LIBRARY_FILENAMES": self.path("nowhere.json")}

@@ -33,6 +33,7 @@ class Sessions(support.CommandTest):
         self.refuse_session(lambda s: s.update(options={"bounces": 1e9}), "/options/bounces")
         self.refuse_session(lambda s: s.update(options={"method": "magic"}), "raytrace")
         self.refuse_session(lambda s: s.update(options={"bounce": 1}), "/options/bounce")
+        self.refuse_session(lambda s: s.update(options={"zexels": {"references": 3}}), "/options/zexels/references")
         self.refuse_session(lambda s: s.update(materials=[{"material": 0, "roughness": 2}]), "/materials/0/roughness")
         self.refuse_session(lambda s: s.update(moved={"object": 0}), "/moved")
         self.refuse_session(lambda s: s.update(scene_options=["--nonsense"]), "/scene_options")
@@ -89,14 +90,63 @@ class Editing(WindowTest):
         self.assertEqual(viewer.end(), 1)
         self.assertEqual(viewer.count("catoptric: error: .*'Plank'"), 1, viewer.said())
 
+    def assert_rescued(self, number):
+        session = json.loads(self.read(f"scene-rescued-{number:04}.session.json"))
+        self.assertEqual([edit["name"] for edit in session["moved"]], ["Board"])
+
+    def edit(self, viewer):
+        viewer.wait_for_window()
+        viewer.wait_for_line(SETTLED)
+        viewer.do("key", "p")
+        viewer.after(SETTLED, lambda: self.drag_with_control(viewer, (220, 90), (100, 150)))
+
+    def test_a_driver_that_resets(self):
+        """No software renderer does: its answer is put in the place where it is asked for (gl/reset_status.h)."""
+        resets = self.path("resets")
+        os.mkdir(resets)
+        os.environ["CATOPTRIC_FAKE_GL_RESET"] = resets
+        self.addCleanup(os.environ.pop, "CATOPTRIC_FAKE_GL_RESET")
+        viewer = self.view("scene.gltf", "--size", "320x240", "--camera", "front")
+        self.edit(viewer)
+        edited = self.screenshot(viewer, 1)
+        # The drawer's context is made anew, and shows the same.
+        self.write("resets/renderer", b"")
+        viewer.after(SETTLED, lambda: viewer.do("key", "7"))
+        self.assertEqual(viewer.count("has reset the renderer's OpenGL context"), 1, viewer.said())
+        viewer.after(SETTLED, lambda: viewer.do("key", "r"))
+        self.assertEqual(self.screenshot(viewer, 2), edited)
+        # The window's ends the viewer, but not what was edited.
+        self.write("resets/window", b"")
+        viewer.do("mousemove", 100, 100)
+        self.assertEqual(viewer.end(), 1, viewer.said())
+        self.assertEqual(viewer.count("catoptric: error: .* has reset the window's OpenGL context"), 1, viewer.said())
+        self.assert_rescued(1)
+
+    def test_a_display_that_goes(self):
+        with window_support.Display() as display:
+            viewer = window_support.Viewer(self.folder, display, "scene.gltf", "--size", "320x240", "--camera", "front")
+            self.addCleanup(viewer.kill)
+            self.edit(viewer)
+        self.assertEqual(viewer.end(), 1, viewer.said())
+        self.assertEqual(viewer.count("catoptric: error: the connection to the display was lost"), 1, viewer.said())
+        self.assert_rescued(1)
+
     def test_inside_the_method(self):
-        viewer = self.view("scene.gltf", "--size", "700x560", "--camera", "front", "--method", "zexel")
+        viewer = self.view("scene.gltf", "--size", "700x560", "--camera", "front", "--method", "zexel", "--zexel-mark",
+                           "--zexel-size", "64", "--zexel-without", "coherence")
         viewer.wait_for_window()
         viewer.wait_for_line(SETTLED)
         viewer.after("from elsewhere", lambda: viewer.do("key", "i"))
         viewer.after("from elsewhere", lambda: viewer.drag((400, 400), (450, 420)))  # the second camera alone moves
         self.assertEqual(viewer.count(SETTLED), 1, viewer.said())
         viewer.do("key", "i")
+        # Options of the method are in the copied command and in the session.
+        viewer.do("key", "ctrl+c")
+        window_support.wait_for(lambda: viewer.read(viewer.output), "command line")
+        self.assertIn(" --zexel-size=64 --zexel-without=coherence --zexel-mark ", viewer.read(viewer.output))
+        viewer.after("wrote ", lambda: viewer.do("key", "ctrl+s"))
+        zexels = json.loads(self.read(SESSION))["options"]["zexels"]
+        self.assertEqual((zexels["size"], zexels["mark"], zexels["coherence"], zexels["splat"]), (64, True, False, "footprint"))
         self.close(viewer)
 
     def test_time_plays_and_frames_are_recorded(self):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Reference images of the zexel method in a file: taken once, refused where they do not fit."""
+"""Reference images of the zexel method in a file: taken once, refused where they do not fit. Exposures, marked."""
 import json
 import os
 import unittest
@@ -35,6 +35,16 @@ class ZexelCache(support.CommandTest):
 
     def test_other_methods_refuse_it(self):
         self.refuse(2, ["--zexel-cache"], "render", "scene.gltf", "-o", "no.png", "--zexel-cache", "images.zexels")
+
+    def test_as_many_pixels_are_marked_as_no_zexel_reached(self):
+        self.succeed("render", "checker-box", "-o", "marked.png", "--method", "zexel", "--zexel-mark", "--zexel-splat", "point",
+                     "--zexel-references", "1", "--zexel-size", "128", "--size", "120x90", "--json", "data.json")
+        counters = json.loads(self.read("data.json"))["counters"]
+        width, _, channels, rows = support.read_png(self.read("marked.png"))
+        pixels = [row[channels * x:channels * x + 3] for row in rows for x in range(width)]
+        marked = sum(red > 140 and green < 100 and blue > 140 for red, green, blue in pixels)
+        self.assertEqual(marked, counters["uncovered_pixels"])
+        self.assertGreater(marked, 50)
 
 
 if __name__ == "__main__":

@@ -4,10 +4,14 @@
 
 #include <array>
 #include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <vector>
 
 #include "catoptric/core/error.h"
+#include "catoptric/gl/reset_status.h"
 #include "gl_test_support.h"
 
 namespace catoptric::gl::test {
@@ -41,6 +45,32 @@ TEST_F(ContextTest, anErrorOrAGraveMessageIsThrownOnce) {
   glDebugMessageInsert(GL_DEBUG_SOURCE_APPLICATION, GL_DEBUG_TYPE_OTHER, 1, GL_DEBUG_SEVERITY_LOW, -1,
                        "mild");
   EXPECT_NO_THROW(context().check("here"));
+}
+
+unsigned answerGuilty() {
+  return GL_GUILTY_CONTEXT_RESET;
+}
+
+TEST_F(ContextTest, aResetIsThrownWithItsCauseAndTheNextContextIsSound) {
+  EXPECT_EQ(codeOf([] { throwIfReset("window", answerGuilty); }), "gl.lost");
+  EXPECT_NO_THROW(throwIfReset("window", nullptr));
+  const std::string folder = testing::TempDir() + "catoptric_reset";
+  std::filesystem::create_directory(folder);
+  setenv("CATOPTRIC_FAKE_GL_RESET", folder.c_str(), 1);
+  EXPECT_NO_THROW(context().check("here"));
+  std::ofstream(folder + "/renderer").close();
+  EXPECT_EQ(codeOf([] { context().check("here"); }), "gl.lost");
+  EXPECT_NO_THROW(Context().check("here"));
+  unsetenv("CATOPTRIC_FAKE_GL_RESET");
+  std::filesystem::remove(folder);
+  context().makeCurrent();
+}
+
+TEST_F(ContextTest, isToldOfResetsWhereTheDriverOffersIt) {
+  GLint strategy = 0;
+  glGetIntegerv(GL_RESET_NOTIFICATION_STRATEGY, &strategy);
+  if (!GLAD_GL_KHR_robustness) GTEST_SKIP() << "the driver does not tell";
+  EXPECT_EQ(strategy, GL_LOSE_CONTEXT_ON_RESET);
 }
 
 TEST_F(Wrappers, clearedValuesAreReadBackUnchanged) {

@@ -144,7 +144,7 @@ void DepthReflectionMapMethod::warpReferences(raster::FrameContext& frame, const
 
 void DepthReflectionMapMethod::closeExposures(raster::FrameContext& frame, const raster::Chain& chain,
                                               const Pinhole& view, Window& window) {
-  if (options_.isCoherent) {
+  if (options_.isCoherent && !options_.marksExposures) {
     std::array<std::uint32_t, 4> tags{kNoTag, kNoTag, kNoTag, kNoTag};
     for (std::size_t before = 0; before < window.lastKeys.size(); ++before)
       for (std::size_t now = 0; now < nearest_.size(); ++now)
@@ -158,6 +158,7 @@ void DepthReflectionMapMethod::closeExposures(raster::FrameContext& frame, const
   window.lastWinners = winners_;
   window.lastKeys.clear();
   for (const Nearest& nearest : nearest_) window.lastKeys.push_back(nearest.key);
+  if (options_.marksExposures) return markExposures(mirror, winners_);
   if (!options_.continuesSurfaces || coverage.uncovered == 0) return;
   continueSurfaces(mirror, winners_, [&](std::uint32_t winner) {
     const ReferenceImage& image = cache_.get(nearest_[winner >> kWinnerTagShift].key);

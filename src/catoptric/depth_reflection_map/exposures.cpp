@@ -43,6 +43,13 @@ Coverage measureCoverage(const WinnerImage& image, const MirrorPixels& mirror) {
   return coverage;
 }
 
+void markExposures(const MirrorPixels& mirror, WinnerImage& image) {
+  const PixelRectangle& r = image.rectangle;
+  for (int y = 0; y < r.height; ++y)
+    for (int x = 0; x < r.width; ++x)
+      if (image.at(x, y) == 0 && mirror.contains(r.x + x, r.y + y)) image.at(x, y) = kExposed;
+}
+
 void keepLastFrame(const WinnerImage& last, const std::array<std::uint32_t, 4>& tags, WinnerImage& image) {
   const PixelRectangle &now = image.rectangle, &before = last.rectangle;
   const int x0 = std::max(now.x, before.x), x1 = std::min(now.x + now.width, before.x + before.width);

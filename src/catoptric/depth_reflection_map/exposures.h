@@ -29,6 +29,11 @@ struct Coverage {
 
 [[nodiscard]] Coverage measureCoverage(const WinnerImage& image, const MirrorPixels& mirror);
 
+/// Instead of a winner: the pixel is drawn as an exposure (zexel_resolve.frag has the same number).
+constexpr std::uint32_t kExposed = 0xffffffffu;
+
+void markExposures(const MirrorPixels& mirror, WinnerImage& image);
+
 constexpr std::uint32_t kNoTag = 4;
 
 /// The paper's colour coherence: an uncovered pixel keeps the zexel that it showed in the frame before.

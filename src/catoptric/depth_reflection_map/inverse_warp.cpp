@@ -73,6 +73,7 @@ InverseWarp::InverseWarp() : program_("raster/screen.vert", "depth_reflection_ma
 void InverseWarp::setOptions(const ZexelOptions& options) {
   cubes_.setLimits(std::max(8, 3 * options.size / 4), options.maxBytes);
   references_ = options.references;
+  marksExposures_ = options.marksExposures;
 }
 
 void InverseWarp::render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
@@ -105,6 +106,7 @@ void InverseWarp::render(raster::FrameContext& frame, const raster::Chain& chain
   program_.set("u_chain", chain.id);
   program_.set("u_step", kTexelsPerStep * 1.5707963f / float(cubes_.sizeTexels()));
   program_.set("u_cubeCount", count);
+  program_.set("u_marksExposures", marksExposures_ ? 1 : 0);
   int unit = raster::kUnitFirstFree + 4;
   for (std::size_t i = 0; i < cubes.size(); ++i) {
     const std::string suffix(1, char('0' + i));

@@ -64,6 +64,7 @@ class InverseWarp {
   raster::SceneCubeCache cubes_;
   std::map<std::uint32_t, ReflectorOutline> outlines_;  ///< by reflector
   int references_ = 2;
+  bool marksExposures_ = false;
 };
 
 }  // namespace catoptric::depth_reflection_map

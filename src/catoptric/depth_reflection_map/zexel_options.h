@@ -23,6 +23,7 @@ struct ZexelOptions {
   bool skipsRegions = true;       ///< leaves out zexels that cannot land in the mirror's image
   bool isCoherent = true;         ///< uncovered pixels keep what they showed in the last frame
   bool continuesSurfaces = true;  ///< exposures show what lies behind their edges, continued
+  bool marksExposures = false;    ///< instead of both: they are magenta
   std::size_t maxBytes = std::size_t(512) << 20;  ///< of all reference images together
   std::string cacheFile{};                        ///< of reference images, read at the start; empty: none
 

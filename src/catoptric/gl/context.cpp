@@ -8,8 +8,10 @@
 
 #include <array>
 #include <cstring>
+#include <vector>
 
 #include "catoptric/core/error.h"
+#include "catoptric/gl/reset_status.h"
 
 namespace catoptric::gl {
 namespace {
@@ -60,6 +62,20 @@ struct Context::Impl {
     if (self->pendingMessage.empty()) self->pendingMessage = text;
   }
 
+  /// `tellsResets`: else a context that the driver resets goes on as if nothing were, which some drivers
+  /// cannot do otherwise.
+  [[nodiscard]] EGLContext createContext(EGLConfig config, bool debug, bool tellsResets) const {
+    std::vector<EGLint> attributes{EGL_CONTEXT_MAJOR_VERSION,       3,
+                                   EGL_CONTEXT_MINOR_VERSION,       3,
+                                   EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                   EGL_CONTEXT_OPENGL_DEBUG,        debug ? EGL_TRUE : EGL_FALSE};
+    if (tellsResets)
+      attributes.insert(attributes.end(),
+                        {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
+    attributes.push_back(EGL_NONE);
+    return eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
+  }
+
   bool open(int attempt, bool debug) {
     display = openDisplay(attempt);
     if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return false;
@@ -70,16 +86,8 @@ struct Context::Impl {
     EGLint configCount = 0;
     if (!eglChooseConfig(display, configAttributes.data(), &config, 1, &configCount) || configCount < 1)
       config = nullptr;  // EGL_KHR_no_config_context
-    const std::array<EGLint, 9> attributes{EGL_CONTEXT_MAJOR_VERSION,
-                                           3,
-                                           EGL_CONTEXT_MINOR_VERSION,
-                                           3,
-                                           EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                           EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                           EGL_CONTEXT_OPENGL_DEBUG,
-                                           debug ? EGL_TRUE : EGL_FALSE,
-                                           EGL_NONE};
-    context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
+    context = createContext(config, debug, true);
+    if (context == EGL_NO_CONTEXT) context = createContext(config, debug, false);
     if (context == EGL_NO_CONTEXT) return false;
     if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) return false;
     return gladLoadGL(reinterpret_cast<GLADloadfunc>(eglGetProcAddress)) != 0;
@@ -136,6 +144,7 @@ void Context::makeCurrent() {
 }
 
 void Context::check(const char* where) {
+  throwIfReset("renderer", GLAD_GL_KHR_robustness ? glad_glGetGraphicsResetStatus : nullptr);
   const GLenum error = glGetError();
   if (error == GL_NO_ERROR && impl_->pendingMessage.empty()) return;
   std::string message = impl_->pendingMessage;

@@ -31,7 +31,8 @@ class Context {
   Context& operator=(const Context&) = delete;
 
   void makeCurrent();
-  /// Throws core::Error("gl.error") if GL reported an error or the context was lost since the last call.
+  /// Throws core::Error("gl.error") if GL reported an error since the last call, "gl.lost" if the driver has
+  /// reset the context (reset_status.h).
   void check(const char* where);
   /// Waits until the GPU has done everything; for timing.
   void finish();

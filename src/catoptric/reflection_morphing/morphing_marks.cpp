@@ -9,21 +9,21 @@
 namespace catoptric::reflection_morphing {
 namespace {
 
-constexpr std::size_t kMostRays = 150;
-const vec3 kLocationColor(0.2f, 0.5f, 1.0f), kCellColor(0.9f, 0.3f, 0.7f), kRayColor(0.4f, 0.6f, 0.15f),
-    kLeafRayColor(1.0f, 0.9f, 0.1f);
+constexpr std::size_t kMostRays = 60;
+const vec3 kLocationColor(0.2f, 0.5f, 1.0f), kCellColor(0.55f, 0.12f, 0.4f), kLeafColor(1.0f, 0.1f, 0.7f),
+    kRayColor(0.3f, 0.5f, 0.1f), kLeafRayColor(1.0f, 0.9f, 0.1f), kPointColor(1.0f, 0.2f, 0.1f);
 
 void addRay(const OctreeRay& ray, double length, const vec3& color, raster::Marks& marks) {
   marks.addLine(ray.origin, dvec3(ray.origin) + length * dvec3(ray.direction), color);
 }
 
 /// As RayOctree::findLeaf() goes.
-void addLeaf(const SampledTrace& trace, const vec3& point, double rayLength, raster::Marks& marks) {
+void addLeaf(const SampledTrace& trace, const dvec3& location, const vec3& point, raster::Marks& marks) {
   const RayOctree& octree = trace.octree;
   if (octree.nodes.empty()) return;
   dvec3 low(octree.lower), half = 0.5 * (dvec3(octree.upper) - low);
   std::uint32_t node = 0;
-  marks.addBox(low, low + 2.0 * half, 0.5f * kCellColor);
+  marks.addBox(low, low + 2.0 * half, kCellColor);
   while (octree.nodes[node].count == 0) {
     node = octree.nodes[node].first;
     for (int axis = 0; axis < 3; ++axis)
@@ -32,10 +32,20 @@ void addLeaf(const SampledTrace& trace, const vec3& point, double rayLength, ras
         low[axis] += half[axis];
       }
     half *= 0.5;
-    marks.addBox(low, low + 2.0 * half, kCellColor);
+    marks.addBox(low, low + 2.0 * half, octree.nodes[node].count == 0 ? kCellColor : kLeafColor);
   }
-  for (const std::uint32_t ray : octree.findLeaf(point))
-    addRay(octree.rays[ray], rayLength, kLeafRayColor, marks);
+  // Each ray of the leaf on its way: from the location over the mirror to where it passes the point.
+  for (const std::uint32_t index : octree.findLeaf(point)) {
+    const OctreeRay& ray = octree.rays[index];
+    marks.addLine(location, ray.origin, kLeafRayColor);
+    addRay(ray, glm::dot(dvec3(point) - dvec3(ray.origin), dvec3(ray.direction)) + 2.0 * half.x,
+           kLeafRayColor, marks);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    dvec3 arm(0);
+    arm[axis] = 2.0 * half.x;
+    marks.addLine(dvec3(point) - arm, dvec3(point) + arm, kPointColor);
+  }
 }
 
 }  // namespace
@@ -57,7 +67,7 @@ void ReflectionMorphingMethod::collectMarks(const scene::WorldGeometry& world, s
     addRay(rays[i], rayLength, kRayColor, marks);
     marks.addLine(location.position, rays[i].origin, 0.4f * kLocationColor);
   }
-  if (options.point) addLeaf(*trace, vec3(*options.point), rayLength, marks);
+  if (options.point) addLeaf(*trace, location.position, vec3(*options.point), marks);
 }
 
 }  // namespace catoptric::reflection_morphing

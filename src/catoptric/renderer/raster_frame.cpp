@@ -60,7 +60,9 @@ gl::Scissor findUnion(const VisibleMirrors& mirrors) {
   return {lower.x, lower.y, upper.x - lower.x, upper.y - lower.y};
 }
 
-/// The picture of one sample, opaque, without a second array to flip it in.
+}  // namespace
+
+// Without a second array to flip it in.
 void readFlipped(const gl::Framebuffer& framebuffer, int attachment, core::ImageRgbaF& image) {
   framebuffer.readPixels(attachment, std::span<vec4>(image.pixels()));
   const std::size_t width = std::size_t(image.width()), height = std::size_t(image.height());
@@ -75,8 +77,6 @@ void readFlipped(const gl::Framebuffer& framebuffer, int attachment, core::Image
     }
   });
 }
-
-}  // namespace
 
 double RasterFrame::findNearPlane(const scene::CameraFrame& camera) {
   const scene::CameraFrame& last = nearPlaneCamera_;

@@ -19,6 +19,9 @@
 
 namespace catoptric::renderer {
 
+/// The picture of one sample, top row first, opaque (what composing leaves in alpha means nothing).
+void readFlipped(const gl::Framebuffer& framebuffer, int attachment, core::ImageRgbaF& image);
+
 class RasterFrame {
  public:
   /// Needs a current context; arguments must outlive the object.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdlib>
 
+#include "catoptric/core/error.h"
 #include "catoptric/reference/ray_tracer.h"
 #include "catoptric/renderer/frame.h"
 #include "catoptric/renderer/raster_frame.h"
@@ -53,7 +54,10 @@ Renderer::Renderer(const scene::Scene& scene, const scene::WorldGeometry& geomet
     : impl_(new Impl{scene, geometry, environment, std::move(context), nullptr, nullptr, {}}) {}
 
 Renderer::~Renderer() {
-  if (impl_->context) impl_->context->makeCurrent();
+  try {
+    if (impl_->context) impl_->context->makeCurrent();
+  } catch (const core::Error&) {  // lost, and all that it held with it
+  }
 }
 
 Frame Renderer::render(const scene::Camera& camera, const FrameOptions& options) {

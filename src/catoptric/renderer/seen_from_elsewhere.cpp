@@ -2,8 +2,6 @@
 // What a method works with, seen from elsewhere. Steps: 1 the scene without the mirror that is looked at, 2
 // the mirror's virtual object, 3 the marks of the method that has drawn it, 4 composed without reflections
 // and read back.
-#include <algorithm>
-
 #include "catoptric/renderer/near_plane.h"
 #include "catoptric/renderer/raster_frame.h"
 
@@ -45,10 +43,7 @@ core::ImageRgbaF RasterFrame::renderElsewhere(const scene::CameraFrame& camera,
   // 4
   compose_.draw(level, nullptr);
   core::ImageRgbaF picture(camera.widthPx, camera.heightPx);
-  level.composed.readPixels(0, std::span<vec4>(picture.pixels()));
-  for (int y = 0; y < camera.heightPx / 2; ++y)
-    for (int x = 0; x < camera.widthPx; ++x)
-      std::swap(picture.at(x, y), picture.at(x, camera.heightPx - 1 - y));
+  readFlipped(level.composed, 0, picture);
   return picture;
 }
 

@@ -10,21 +10,43 @@ namespace catoptric::sketch {
 using virtual_object::ReflectorMesh;
 using virtual_object::VirtualObjectSolver;
 
-core::ImageRgba8 drawMap(const core::Image<std::uint32_t>& ids, bool hasExtensionBit) {
+std::vector<Colour> colourTriangles(const ReflectorMesh& mesh) {
+  constexpr std::size_t kFew = 1000;  // that can be told apart by colours without order
+  constexpr float kMiddle = 0.5f, kRange = 0.42f, kSteps = 7;
+  std::vector<Colour> colours;
+  for (std::uint32_t t = 0; t < mesh.triangles().size(); ++t) {
+    if (mesh.triangles().size() <= kFew) {
+      colours.push_back(colourOfNumber(t));
+      continue;
+    }
+    const vec3 from(mesh.triangles()[t].position(1.0 / 3, 1.0 / 3) - mesh.centre());
+    const float step = float(t * 2654435769u >> 16 & 0xffffu) / 65536.0f;  // neighbours still differ a little
+    const vec3 place = from / std::max(float(mesh.radius()), 1e-30f);
+    const vec3 colour = (kMiddle + kRange * place) * (0.75f + 0.35f * std::floor(kSteps * step) / kSteps);
+    colours.emplace_back(glm::u8vec3(255.0f * glm::clamp(colour, 0.0f, 1.0f)), 255);
+  }
+  return colours;
+}
+
+core::ImageRgba8 drawMap(const core::Image<std::uint32_t>& ids, bool hasExtensionBit,
+                         std::span<const Colour> colours) {
   constexpr float kExtension = 0.4f;
   core::ImageRgba8 picture(ids.width(), ids.height(), glm::u8vec4(0, 0, 0, 255));
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const std::uint32_t id = ids.pixels()[i];
     if (id == core::kNoId) continue;
     const bool isExtension = hasExtensionBit && (id & virtual_object::kExtensionBit) != 0;
-    picture.pixels()[i] = colourOfNumber(hasExtensionBit ? id / 2 : id, isExtension ? kExtension : 1.0f);
+    const vec4 colour(colours[hasExtensionBit ? id / 2 : id]);
+    picture.pixels()[i] = Colour(vec3(colour) * (isExtension ? kExtension : 1.0f) + 0.5f, 255);
   }
   return picture;
 }
 
 core::ImageRgba8 drawMaps(const VirtualObjectSolver& solver) {
-  return putSideBySide({drawMap(solver.nearMap().ids, true), drawMap(solver.farMap().ids, true),
-                        drawMap(solver.hiddenMap().ids, false)});
+  const std::vector<Colour> colours = colourTriangles(solver.mesh());
+  return putSideBySide({drawMap(solver.nearMap().ids, true, colours),
+                        drawMap(solver.farMap().ids, true, colours),
+                        drawMap(solver.hiddenMap().ids, false, colours)});
 }
 
 Sketch sketchRays(const ReflectorMesh& mesh, const dvec3& eye, int count, double length) {

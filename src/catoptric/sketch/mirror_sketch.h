@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "catoptric/raster/virtual_triangles.h"
 #include "catoptric/sketch/sketch.h"
@@ -13,9 +14,14 @@
 
 namespace catoptric::sketch {
 
-/// A colour for each triangle, darker where an extension polygon of it stands in (if ids carry
+/// A colour for each triangle. Of many triangles, which are a few pixels each in a map, neighbours have like
+/// ones: by where on the mirror they lie, so that a place can be found again in another map.
+[[nodiscard]] std::vector<Colour> colourTriangles(const virtual_object::ReflectorMesh& mesh);
+
+/// The colour of each triangle, darker where an extension polygon of it stands in (if ids carry
 /// virtual_object::kExtensionBit), black outside the circle.
-[[nodiscard]] core::ImageRgba8 drawMap(const core::Image<std::uint32_t>& ids, bool hasExtensionBit);
+[[nodiscard]] core::ImageRgba8 drawMap(const core::Image<std::uint32_t>& ids, bool hasExtensionBit,
+                                       std::span<const Colour> colours);
 
 /// Near, far and hidden map in a row.
 [[nodiscard]] core::ImageRgba8 drawMaps(const virtual_object::VirtualObjectSolver& solver);

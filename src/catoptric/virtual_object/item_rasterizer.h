@@ -17,6 +17,32 @@ struct EdgeFunction {
   std::int64_t stepX, stepY, value;  // value at the first pixel; inside: value >= 0
 };
 
+/// Pixels of a row, counted from its first one.
+struct PixelSpan {
+  int begin, end;
+};
+
+/// Where all three edge functions say inside, of the first `count` pixels of a row. A few are asked one by
+/// one, a long row is divided: triangles that run aslant fill little of the box around them.
+inline PixelSpan findInside(const std::array<EdgeFunction, 3>& edges, const std::array<std::int64_t, 3>& bias,
+                            int count) {
+  constexpr int kFew = 6;
+  std::int64_t begin = 0, end = count;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::int64_t step = edges[i].stepX, first = edges[i].value + bias[i];
+    const auto isInside = [&](std::int64_t k) { return first + k * step >= 0; };
+    if (step == 0 && first < 0) return {0, 0};
+    if (step > 0 && first < 0) {
+      if (count > kFew) begin = std::max(begin, (step - 1 - first) / step);
+      while (begin < end && !isInside(begin)) ++begin;
+    }
+    if (step < 0 && count > kFew) end = first < 0 ? 0 : std::min(end, 1 - first / step);
+    if (step < 0)
+      while (begin < end && !isInside(end - 1)) --end;
+  }
+  return {int(std::min(begin, end)), int(end)};
+}
+
 /// Calls visit(x, y, weights) for every pixel of a width x height raster whose centre lies in the triangle;
 /// weights are barycentric. Vertices in pixels, (0,0) the corner of pixel (0,0). Vertices beyond +-10^6 px
 /// are refused.
@@ -53,13 +79,15 @@ void rasterizeTriangle(const std::array<dvec2, 3>& verticesPx, int width, int he
     bias[i] = (dy < 0 || (dy == 0 && dx > 0)) ? 0 : -1;  // a pixel on an edge belongs to one side only
   }
   const double inverseArea = 1.0 / double(area);
+  const int count = x1 - x0 + 1;
   for (int py = y0; py <= y1; ++py) {
-    std::int64_t w0 = edges[0].value, w1 = edges[1].value, w2 = edges[2].value;
-    for (int px = x0; px <= x1; ++px) {
-      if (w0 + bias[0] >= 0 && w1 + bias[1] >= 0 && w2 + bias[2] >= 0) {
-        const dvec3 weights(double(w0) * inverseArea, double(w1) * inverseArea, double(w2) * inverseArea);
-        visit(px, py, swapped ? dvec3(weights.x, weights.z, weights.y) : weights);
-      }
+    const PixelSpan span = findInside(edges, bias, count);
+    std::int64_t w0 = edges[0].value + span.begin * edges[0].stepX,
+                 w1 = edges[1].value + span.begin * edges[1].stepX,
+                 w2 = edges[2].value + span.begin * edges[2].stepX;
+    for (int px = x0 + span.begin; px < x0 + span.end; ++px) {
+      const dvec3 weights(double(w0) * inverseArea, double(w1) * inverseArea, double(w2) * inverseArea);
+      visit(px, py, swapped ? dvec3(weights.x, weights.z, weights.y) : weights);
       w0 += edges[0].stepX, w1 += edges[1].stepX, w2 += edges[2].stepX;
     }
     for (auto& edge : edges) edge.value += edge.stepY;

@@ -36,18 +36,20 @@ ReflectedCone makeReflectedCone(const ReflectorMesh& mesh, const ReflectedRays& 
   // Within a triangle normals are interpolated: its rays stay between those of the corners, but for terms of
   // the second order.
   constexpr double kBetween = 0.25, kLeast = 1e-3;
-  double widest = 1, largest = 1;  // cosines
+  double leastCosine = 1, longestChord = 0;  // squared; between unit vectors
   for (std::size_t t = 0; t < mesh.ordinaryCount(); ++t) {
     if (!rays.isMapped[t]) continue;
     for (std::size_t k = 0; k < 3; ++k) {
       const dvec3& direction = rays.directions[mesh.corners()[3 * t + k]];
       const dvec3& next = rays.directions[mesh.corners()[3 * t + (k + 1) % 3]];
-      widest = std::min(widest, glm::dot(direction, cone.axis));
-      largest = std::min(largest, glm::dot(direction, next));
+      const dvec3 chord = next - direction;
+      leastCosine = std::min(leastCosine, glm::dot(direction, cone.axis));
+      longestChord = std::max(longestChord, glm::dot(chord, chord));
     }
   }
-  const auto angleOf = [](double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); };
-  cone.halfAngleRadians = angleOf(widest) + kBetween * angleOf(largest) + kLeast;
+  const double widest = std::acos(std::max(leastCosine, -1.0));
+  const double largest = 2.0 * std::asin(std::min(0.5 * std::sqrt(longestChord), 1.0));
+  cone.halfAngleRadians = widest + kBetween * largest + kLeast;
   return cone;
 }
 

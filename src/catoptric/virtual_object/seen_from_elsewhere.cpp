@@ -14,7 +14,7 @@
 namespace catoptric::virtual_object {
 namespace {
 
-constexpr std::size_t kMostRays = 150, kMostMeshTriangles = 700, kMostEdges = 400000;
+constexpr std::size_t kMostRays = 80, kMostMeshTriangles = 250, kMostEdges = 400000;
 const vec3 kRealColor(0.25f, 0.3f, 0.35f), kVirtualColor(0.9f, 0.45f, 0.1f), kMeshColor(0.35f, 0.45f, 0.6f),
     kRayColor(0.5f, 0.7f, 0.2f), kCellColor(1.0f, 0.1f, 0.6f), kPathColor(1.0f, 0.9f, 0.1f);
 

@@ -123,7 +123,9 @@ TEST_F(SphereSketch, ACellIsDrawnOnlyWhereTheMirrorFacesTheEye) {
 }
 
 TEST_F(SphereSketch, MapsHaveOneColourATriangleAndBlackOutsideTheCircle) {
-  const core::ImageRgba8 map = drawMap(solver.nearMap().ids, true);
+  const std::vector<Colour> colours = colourTriangles(mesh);
+  ASSERT_EQ(colours.size(), mesh.triangles().size());
+  const core::ImageRgba8 map = drawMap(solver.nearMap().ids, true, colours);
   EXPECT_EQ(map.at(0, 0), glm::u8vec4(0, 0, 0, 255));
   EXPECT_NE(map.at(map.width() / 2, map.height() / 2), glm::u8vec4(0, 0, 0, 255));
   EXPECT_EQ(drawMaps(solver).height(), solver.nearMap().ids.height());

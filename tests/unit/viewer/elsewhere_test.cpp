@@ -25,6 +25,7 @@ Pixels drawElsewhere(renderer::Renderer& renderer, const scene::Camera& camera,
   const core::ImageRgbaF picture = renderer.renderElsewhere(
       camera, {.reflector = reflector, .marks = marks, .widthPx = 96, .heightPx = 72});
   const auto& pixels = picture.pixels();
+  for (const vec4& pixel : pixels) EXPECT_EQ(pixel.w, 1.0f) << "it would show the window behind it";
   return {pixels.begin(), pixels.end()};
 }
 
