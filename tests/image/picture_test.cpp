@@ -178,21 +178,23 @@ TEST(Picture, refraction) {
       {24, 0.25, "solver exact: rounding, and rims, where the whole room is squeezed into one pixel"});
 }
 
-/// Glass in a room of mirrors: at the limit of bounces a mirror is followed nowhere and shows the environment,
-/// directly, behind glass and beside it.
+/// Glass in a room of mirrors: at the limit of bounces a mirror is followed nowhere and shows the
+/// environment, directly, behind glass and beside it.
 TEST(Picture, mirrorsThatNothingFollowsBesideGlass) {
   scene::Scene room = builtIn("lenses").scene;
   int mirrors = 0;
   for (scene::Material& material : room.materials)
-    if (material.name.find("plaster") != std::string::npos || material.name.find("wood") != std::string::npos) {
+    if (material.name.find("plaster") != std::string::npos ||
+        material.name.find("wood") != std::string::npos) {
       material.metallic = 1, material.roughness = 0;
       ++mirrors;
     }
   ASSERT_GT(mirrors, 0);
   const scene::WorldGeometry world = scene::makeWorldGeometry(room);
   const Subject subject{"mirrors-beside-glass", room, world, room.cameras.front(), 0};
-  expectWithin(subject, withTurnedNormals(world, 0.005),
-               {24, 0.25, "solver exact: rounding, and rims, where the whole room is squeezed into one pixel"});
+  expectWithin(
+      subject, withTurnedNormals(world, 0.005),
+      {24, 0.25, "solver exact: rounding, and rims, where the whole room is squeezed into one pixel"});
 }
 
 // A baseline where the truth cannot judge: both renderers share their shading, sky and tone mapping, so a
