@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the tests of the command share: running it, a small scene, readers for what it writes."""
 import base64
+import collections.abc
 import json
 import os
 import struct
@@ -47,8 +48,49 @@ def make_glb(document):
     return struct.pack("<4sII", b"glTF", 2, 20 + len(text)) + struct.pack("<I4s", len(text), b"JSON") + text
 
 
+class Picture(collections.abc.Sequence):
+    """(width, height, channels, rows of bytes) of an 8-bit PNG that is not interlaced. Rows are decoded, which takes a
+    while in Python, when they are first asked for; to compare pictures that the command has written they need not be:
+    its encoder is deterministic, so they are equal where the filtered bytes are."""
+
+    def __init__(self, width, height, channels, filtered):
+        self.shape, self.filtered, self.rows = (width, height, channels), filtered, None
+
+    def __eq__(self, other):
+        return (self.shape, self.filtered) == (other.shape, other.filtered)
+
+    def __len__(self):
+        return 4
+
+    def __getitem__(self, i):
+        if isinstance(i, slice):
+            return tuple(self[k] for k in range(*i.indices(4)))
+        return self.shape[i] if i in (0, 1, 2) else self.decode_rows(i)
+
+    def decode_rows(self, i):
+        if i not in (3, -1):
+            raise IndexError(i)
+        if self.rows is None:
+            width, height, channels = self.shape
+            self.rows, stride = [], width * channels
+            previous = bytes(stride)
+            for y in range(height):
+                kind, line = self.filtered[y * (stride + 1)], self.filtered[y * (stride + 1) + 1:(y + 1) * (stride + 1)]
+                previous = undo_filter(kind, bytearray(line), previous, channels)
+                self.rows.append(previous)
+        return self.rows
+
+
+def undo_filter(kind, line, previous, channels):
+    for i in range(len(line) if kind else 0):
+        a = line[i - channels] if i >= channels else 0
+        b, c = previous[i], previous[i - channels] if i >= channels else 0
+        nearest = min((abs(b - c), 0, a), (abs(a - c), 1, b), (abs(a + b - 2 * c), 2, c))[2] if kind == 4 else 0
+        line[i] = (line[i] + (0, a, b, (a + b) // 2, nearest)[kind]) & 255
+    return bytes(line)
+
+
 def read_png(data):
-    """(width, height, channels, rows of bytes) of an 8-bit PNG that is not interlaced."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
     at, packed = 8, b""
     while at < len(data):
@@ -60,19 +102,7 @@ def read_png(data):
         elif kind == b"IDAT":
             packed += body
         at += 12 + length
-    channels = {2: 3, 6: 4, 0: 1}[color]
-    raw, rows, stride = zlib.decompress(packed), [], width * channels
-    previous = bytes(stride)
-    for y in range(height):
-        kind, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        for i in range(stride):
-            a = line[i - channels] if i >= channels else 0
-            b, c = previous[i], previous[i - channels] if i >= channels else 0
-            nearest = min((abs(b - c), 0, a), (abs(a - c), 1, b), (abs(a + b - 2 * c), 2, c))[2]
-            line[i] = (line[i] + (0, a, b, (a + b) // 2, nearest)[kind]) & 255
-        previous = bytes(line)
-        rows.append(previous)
-    return width, height, channels, rows
+    return Picture(width, height, {2: 3, 6: 4, 0: 1}[color], zlib.decompress(packed))
 
 
 def exr_channels(data):

@@ -131,6 +131,30 @@ class Editing(WindowTest):
         self.assertEqual(viewer.count("catoptric: error: the connection to the display was lost"), 1, viewer.said())
         self.assert_rescued(1)
 
+    def test_surroundings_are_picked_from_the_list(self):
+        red = bytes((200, 20, 20, 128))  # radiance, with its exponent
+        self.write("red.hdr", b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n" + 32 * red)
+        viewer = self.view("scene.gltf", "--size", "640x480", "--camera", "front")
+        viewer.wait_for_window()
+        viewer.wait_for_line(SETTLED)
+        sky = self.screenshot(viewer, 1)
+        # The sixth row of the panel; in the list the sky is the first, the one file beside the scene the second.
+        viewer.do("mousemove", 100, 162, "sleep", "0.2", "click", 1, "sleep", "0.3")
+        viewer.after(SETTLED, lambda: viewer.do("mousemove", 100, 204, "sleep", "0.2", "click", 1))
+        picked = self.screenshot(viewer, 2)
+        channels = picked[2]
+        red, green = picked[3][470][channels * 600:channels * 600 + 2]
+        self.assertGreater(red, 2 * green)
+        self.assertNotEqual(picked, sky)
+        # The eye stays where it was, and the session names the file.
+        viewer.after("wrote ", lambda: viewer.do("key", "ctrl+s"))
+        session = json.loads(self.read(SESSION))
+        self.assertEqual(session["environment"], "red.hdr")
+        viewer.do("mousemove", 100, 162, "sleep", "0.2", "click", 1, "sleep", "0.3")
+        viewer.after(SETTLED, lambda: viewer.do("mousemove", 100, 187, "sleep", "0.2", "click", 1))
+        self.assertEqual(self.screenshot(viewer, 3), sky)
+        self.close(viewer)
+
     def test_inside_the_method(self):
         viewer = self.view("scene.gltf", "--size", "700x560", "--camera", "front", "--method", "zexel", "--zexel-mark",
                            "--zexel-size", "64", "--zexel-without", "coherence")

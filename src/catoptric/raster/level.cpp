@@ -136,7 +136,7 @@ void ComposePass::draw(const Level& level, const Level* next) {
     bindImages(overlay_, {{"u_overlay", &level.overlay}});
     gl::drawScreen();
   }
-  if (level.withSeen) findSeen(level, next);
+  if (level.withSeen && level.composesSeen) findSeen(level, next);
 }
 
 }  // namespace catoptric::raster

@@ -40,7 +40,8 @@ struct Level {
   gl::Framebuffer overlays;
   gl::Framebuffer composed;  ///< radiance
   gl::Framebuffer seen;      ///< seenPosition, seenIds
-  bool withSeen = true;      ///< also says what is seen at each pixel
+  bool withSeen = true;      ///< also says what is seen at each pixel ...
+  bool composesSeen = true;  ///< ... and composes that
   bool isLast = true;  ///< no level comes after it: its mirrors show the environment, and are shaded with it
   gl::Scissor drawnBounds;  ///< pixels that may show something
   bool hasOverlay = false;

@@ -67,6 +67,9 @@ struct FrameOptions {
   bool allDynamic = false;       ///< Morphing: every vertex counts as moving
   depth_reflection_map::ZexelOptions zexel{};  ///< Zexel only
   bool withSeen = true;                        ///< read back what is seen at each pixel
+  /// Without `withSeen`: draw by the same programs all the same. Who draws both kinds of frames in turn has
+  /// half as many to compile so; it costs a picture more that is written.
+  bool drawsSeen = false;
   /// RayTrace: once it is true, which any thread may make it, the frame ends early and is of no use.
   const std::atomic<bool>* cancel = nullptr;
 };

@@ -200,7 +200,8 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
                                .counters = counters};
 
   // 1
-  levels_[0]->withSeen = options.withSeen;
+  levels_[0]->withSeen = options.withSeen || options.drawsSeen;
+  levels_[0]->composesSeen = options.withSeen;
   levels_[0]->isLast = mostLevels == 0;
   primary_.draw(scene_, camera, context.nearPlane, jitterPx, *levels_[0]);
   context_.finish();
@@ -225,7 +226,8 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
     // 3, 4
     raster::Level& target = *levels_[std::size_t(level) + 1];
     target.clear(findUnion(mirrors));
-    target.withSeen = options.withSeen;
+    target.withSeen = options.withSeen || options.drawsSeen;
+    target.composesSeen = options.withSeen;
     target.isLast = level + 1 == mostLevels;
     for (const raster::Chain& chain : mirrors.chains) {
       raster::ReflectionMethod* method = pickMethod(chain, options);
