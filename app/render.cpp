@@ -62,6 +62,7 @@ Json makeFrameJson(const renderer::FrameOptions& options, const renderer::Frame&
            {{"virtual_vertices", counters.virtualVertices},
             {"culled_vertices", counters.culledVertices},
             {"culled_triangles", counters.culledTriangles},
+            {"simplified_triangles", counters.simplifiedTriangles},
             {"virtual_triangles", counters.virtualTriangles},
             {"looked_up_vertices", counters.lookedUpVertices},
             {"fragment_tests", counters.fragmentTests},

@@ -20,7 +20,7 @@ SPDX = "SPDX-License-Identifier: Apache-2.0"
 LIMITS = {"cpp": (300, 400), "h": (300, 400), "py": (300, 400), "sh": (150, 300), "glsl": (150, 200),
           "vert": (150, 200), "frag": (150, 200), "cmake": (150, 300)}
 # Header pattern -> the only folders that may include it.
-OWNERS = {r"embree\d*/": ["src/catoptric/reference"], r"glad/|EGL/|GL/|GLES\d/": ["src/catoptric/gl"],
+OWNERS = {r"embree\d*/": ["src/catoptric/reference"], r"meshoptimizer": ["src/catoptric/geometry"], r"glad/|EGL/|GL/|GLES\d/": ["src/catoptric/gl"],
           r"nlohmann/": ["src/catoptric/scene", "app", "tests"], r"CLI/": ["app"], r"GLFW/|imgui": ["app/viewer"],
           r"(png|jpeglib)\.h|webp/|OpenEXR/|Imf": ["src/catoptric/core"]}
 

@@ -103,6 +103,39 @@ scene::Camera cameraAt(double timeS) {
   return camera;
 }
 
+/// Radiance of both, compared bit by bit.
+void expectSame(const renderer::Frame& a, const renderer::Frame& b) {
+  ASSERT_EQ(a.radiance.size(), b.radiance.size());
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < a.radiance.size(); ++i)
+    different += a.radiance.pixels()[i] != b.radiance.pixels()[i] ? 1 : 0;
+  EXPECT_EQ(different, 0u);
+}
+
+TEST(DraggedFrames, areThoseOfARendererThatKeptNothing) {
+  reference::TracedTestScene t;
+  scene::Material paint;
+  paint.metallic = 0;
+  t.add(reference::makeBall(48, 24), reference::makeMirror(vec3(0.95f)), "ball",
+        geometry::moveBy({0, 0.5, 0}) * geometry::scaleBy(dvec3(0.5)));
+  const int thing = t.add(reference::makeBall(48, 24), paint, "thing",
+                          geometry::moveBy({1.2, 0.2, 0.8}) * geometry::scaleBy(dvec3(0.2)));
+  t.add(reference::makeQuad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}), paint, "floor");
+  t.finish();
+  scene::WorldMotion motion(t.scene, t.world, {});
+  renderer::Renderer dragged(t.scene, t.world, sky());
+  const renderer::FrameOptions options{.method = renderer::Method::Virtual, .widthPx = 200, .heightPx = 150};
+  (void)dragged.render(cameraAt(0), options);
+  for (const int instance : {thing, 0})  // an object, then the mirror itself
+    for (const double x : {0.1, -0.3, -0.8}) {
+      const auto moved = motion.shiftInstance(std::uint32_t(instance), dvec3(x, 0, 0.05));
+      ASSERT_FALSE(moved.empty());
+      dragged.updateGeometry(moved);
+      renderer::Renderer fresh(t.scene, t.world, sky());
+      expectSame(dragged.render(cameraAt(0), options), fresh.render(cameraAt(0), options));
+    }
+}
+
 TEST(MovingFrames, keepToTheTruth) {
   MovingScene m;
   scene::WorldMotion motion(m.t.scene, m.t.world, {});

@@ -16,7 +16,8 @@ struct MethodCounters {
   std::uint64_t virtualVertices = 0;
   std::uint64_t culledVertices = 0;
   std::uint64_t virtualTriangles = 0;
-  std::uint64_t culledTriangles = 0;  ///< in which no pixel has its centre, or that turn their back
+  std::uint64_t culledTriangles = 0;      ///< in which no pixel has its centre, or that turn their back
+  std::uint64_t simplifiedTriangles = 0;  ///< TessellatedObjects::simplifiedTriangles
   std::uint64_t fragmentTests = 0;
   double virtualVerticesMs = 0;
   std::uint64_t lookedUpVertices = 0;  ///< of morphing: searched in the octrees, the others were kept
@@ -57,6 +58,10 @@ class ReflectionMethod {
   virtual void prepare(FrameContext& frame) = 0;
   /// Vertices or reflectors of the scene have moved: whatever was made from them is out of date.
   virtual void geometryChanged() {}
+  /// The same, but nothing else has changed than vertices of these parts, and what follows from them.
+  virtual void partsMoved(const scene::WorldGeometry&, std::span<const std::uint32_t> /*parts*/) {
+    geometryChanged();
+  }
   /// Materials look different: the same of pictures that were taken.
   virtual void materialsChanged() {}
   /// Draws what the last mirror of the chain shows into `target`, at the pixels of `parent` that show that

@@ -81,6 +81,12 @@ void SceneBuffers::updateGeometry(std::span<const std::uint32_t> movedParts) {
     boxes_[p] = computePartBox(geometry_, p);
   }
   if (!movedParts.empty()) world_.setIndices(geometry_.indices, false);
+  if (levels_) levels_->update(scene_, geometry_, movedParts);
+}
+
+const LevelsOfDetail& SceneBuffers::levels() const {
+  if (!levels_) levels_ = std::make_unique<LevelsOfDetail>(scene_, geometry_);
+  return *levels_;
 }
 
 bool SceneBuffers::isBlended(std::uint32_t part) const {

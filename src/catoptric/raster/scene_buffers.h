@@ -9,6 +9,7 @@
 
 #include "catoptric/gl/program.h"
 #include "catoptric/gl/texture.h"
+#include "catoptric/raster/levels_of_detail.h"
 #include "catoptric/raster/vertex_streams.h"
 #include "catoptric/scene/environment.h"
 #include "catoptric/scene/scene.h"
@@ -55,6 +56,10 @@ class SceneBuffers {
   [[nodiscard]] const std::vector<DrawRange>& opaqueRanges() const { return opaque_; }
   [[nodiscard]] const std::vector<DrawRange>& blendedRanges() const { return blended_; }
   [[nodiscard]] bool isBlended(std::uint32_t part) const;
+  /// Made when first asked for.
+  [[nodiscard]] const LevelsOfDetail& levels() const;
+  /// Null until then.
+  [[nodiscard]] const LevelsOfDetail* levelsSoFar() const { return levels_.get(); }
   /// Around the vertices of a part, world.
   [[nodiscard]] const core::Box& partBox(std::uint32_t part) const { return boxes_[part]; }
 
@@ -75,6 +80,7 @@ class SceneBuffers {
   std::vector<vec3> irradiance_;
   std::vector<DrawRange> opaque_, blended_;
   std::vector<core::Box> boxes_;  ///< by part
+  mutable std::unique_ptr<LevelsOfDetail> levels_;
 };
 
 }  // namespace catoptric::raster

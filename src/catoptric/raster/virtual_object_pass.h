@@ -18,6 +18,11 @@ class VirtualObjectPass {
  public:
   /// `objects` must outlive the pass.
   explicit VirtualObjectPass(const TessellatedObjects& objects) : objects_(objects) {}
+  /// The objects are others now.
+  void objectsChanged() {
+    streams_.reset();
+    blendedStreams_.reset();
+  }
 
   /// Arguments as of selectVirtualTriangles(); `view` says how virtual vertices get to the screen.
   void draw(FrameContext& frame, const SurfaceView& view, std::span<const vec3> virtualPositions,

@@ -5,6 +5,7 @@
 // Orientation finds it.
 #include "catoptric/raster/virtual_triangles.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -46,6 +47,7 @@ struct Judge {
   std::span<const vec3> scenePoints, virtualPositions, reflectionPoints;
   std::span<const VertexKind> kinds;
   vec3 eye;
+  float longestChord;
 
   [[nodiscard]] bool keeps(const std::uint32_t v[3]) const {
     const VertexKind a = kinds[v[0]], b = kinds[v[1]], c = kinds[v[2]];
@@ -54,6 +56,10 @@ struct Judge {
     const vec3 q[3] = {scenePoints[v[0]], scenePoints[v[1]], scenePoints[v[2]]};
     const vec3 w[3] = {virtualPositions[v[0]], virtualPositions[v[1]], virtualPositions[v[2]]};
     const vec3 j[3] = {reflectionPoints[v[0]], reflectionPoints[v[1]], reflectionPoints[v[2]]};
+    const bool isMixed = a != b || b != c;
+    if (isMixed && std::max({glm::distance(j[0], j[1]), glm::distance(j[1], j[2]),
+                             glm::distance(j[2], j[0])}) > longestChord)
+      return false;
     return !isInsideOut(q, w, j, eye);
   }
 };
@@ -63,12 +69,12 @@ struct Judge {
 void markVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
                           std::span<const vec3> virtualPositions, std::span<const VertexKind> kinds,
                           std::span<const vec3> reflectionPoints, VirtualTriangles& out,
-                          std::span<const vec3> scenePoints) {
+                          std::span<const vec3> scenePoints, float longestChord) {
   if (scenePoints.empty()) scenePoints = objects.positions;
   assert(scenePoints.size() == objects.positions.size());
   assert(virtualPositions.size() == objects.positions.size() && kinds.size() == objects.positions.size());
   assert(reflectionPoints.size() == objects.positions.size());
-  const Judge judge{scenePoints, virtualPositions, reflectionPoints, kinds, vec3(eye)};
+  const Judge judge{scenePoints, virtualPositions, reflectionPoints, kinds, vec3(eye), longestChord};
   out.isKept.resize(objects.indices.size() / 3);
   core::parallelFor(out.isKept.size(), kTrianglesPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) out.isKept[t] = judge.keeps(&objects.indices[3 * t]);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -35,11 +36,14 @@ void selectVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
                             std::span<const vec3> reflectionPoints, VirtualTriangles& out,
                             std::span<const vec3> scenePoints = {});
 
-/// Sets out.isKept alone.
+/// Sets out.isKept alone. `longestChord`, of a mirror without a boundary: a triangle with a doubly virtual
+/// corner has no two reflection points farther apart. It reaches around the reflector's shadow, and drawn it
+/// would cut off the rim along that chord, where what it may show is a ring much thinner than a pixel.
 void markVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
                           std::span<const vec3> virtualPositions, std::span<const VertexKind> kinds,
                           std::span<const vec3> reflectionPoints, VirtualTriangles& out,
-                          std::span<const vec3> scenePoints = {});
+                          std::span<const vec3> scenePoints = {},
+                          float longestChord = std::numeric_limits<float>::infinity());
 
 /// Fills the rest: the triangles of `out.isKept` with corners from `indices`, which run parallel to
 /// objects.indices; only of the parts for which `isWanted` is set, of all if it is empty.

@@ -31,7 +31,7 @@ class ReflectionMorphingMethod : public raster::ReflectionMethod {
   }
   /// The same, if a mirror is among the parts. Else they are looked up anew from now on after each such call,
   /// and everything else stays as it is.
-  void partsMoved(const scene::WorldGeometry& world, std::span<const std::uint32_t> parts);
+  void partsMoved(const scene::WorldGeometry& world, std::span<const std::uint32_t> parts) override;
   [[nodiscard]] bool hasSource() const { return source_ != nullptr; }
   /// True: every vertex counts as moving and is looked up anew in every frame.
   void setDynamic(bool dynamic) { dynamic_ = dynamic; }

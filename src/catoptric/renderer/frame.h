@@ -85,8 +85,10 @@ struct FrameTimings {
 };
 
 struct FrameCounters {
-  std::uint64_t virtualVertices = 0;   ///< reflection points sought
-  std::uint64_t culledTriangles = 0;   ///< virtual ones that show at no pixel
+  std::uint64_t virtualVertices = 0;  ///< reflection points sought
+  std::uint64_t culledTriangles = 0;  ///< virtual ones that show at no pixel
+  std::uint64_t simplifiedTriangles =
+      0;                               ///< of the scene, for which the fewer ones of a level of detail stood
   std::uint64_t culledVertices = 0;    ///< not sought, because no reflected ray comes near their triangles
   std::uint64_t virtualTriangles = 0;  ///< drawn into reflection images
   std::uint64_t fragmentTests = 0;     ///< Exact: pixels that met a triangle offered to them, or did not

@@ -109,10 +109,8 @@ void RasterFrame::updateGeometry(std::span<const std::uint32_t> movedParts) {
   nearPlane_ = 0;
   hasMoved_ = true;
   primary_.geometryChanged();
-  hits_.geometryChanged();
-  for (raster::ReflectionMethod* method : methods_)
-    if (method != &morphing_) method->geometryChanged();
-  morphing_.partsMoved(geometry_, movedParts);
+  hits_.partsMoved(scene_, movedParts);
+  for (raster::ReflectionMethod* method : methods_) method->partsMoved(geometry_, movedParts);
 }
 
 void RasterFrame::updateMaterials() {
@@ -258,6 +256,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   frame.counters.virtualVertices += counters.virtualVertices;
   frame.counters.culledVertices += counters.culledVertices;
   frame.counters.culledTriangles += counters.culledTriangles;
+  frame.counters.simplifiedTriangles += counters.simplifiedTriangles;
   frame.counters.virtualTriangles += counters.virtualTriangles;
   frame.counters.fragmentTests += counters.fragmentTests;
   frame.timings.warpMs += counters.warpMs;

@@ -83,7 +83,8 @@ HitShading::HitShading()
 }
 
 void HitShading::prepare(const raster::SceneBuffers& scene, const raster::Level& parent) {
-  if (!triangles_) triangles_ = std::make_unique<SceneTriangles>(scene);
+  if (!triangles_ || triangles_->levels() != scene.levelsSoFar())
+    triangles_ = std::make_unique<SceneTriangles>(scene);
   if (targets_ && targets_->widthPx == parent.widthPx && targets_->heightPx == parent.heightPx) return;
   targets_ = std::make_unique<Targets>(parent.widthPx, parent.heightPx);
   raysOf_ = nullptr;

@@ -46,7 +46,9 @@ class HitShading {
 
   HitShading();
   void beginFrame() { raysOf_ = nullptr; }
-  void geometryChanged() { triangles_.reset(); }
+  void partsMoved(const raster::SceneBuffers& scene, std::span<const std::uint32_t> parts) {
+    if (triangles_) triangles_->update(scene, parts);
+  }
   /// Makes targets of the parent's size and the scene's textures, when there are none.
   void prepare(const raster::SceneBuffers& scene, const raster::Level& parent);
 

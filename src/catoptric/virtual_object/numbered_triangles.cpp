@@ -106,9 +106,9 @@ NumberedMesh makeNumberedMesh(const raster::TessellatedObjects& objects) {
   return mesh;
 }
 
-void findPartRects(const scene::WorldGeometry& world, const gl::Scissor& bounds, std::span<const uvec2> hits,
-                   std::span<const uvec2> parentIds, int widthPx, std::uint32_t parentWord,
-                   PartRects& rects) {
+void findPartRects(std::span<const std::uint32_t> triangleParts, const gl::Scissor& bounds,
+                   std::span<const uvec2> hits, std::span<const uvec2> parentIds, int widthPx,
+                   std::uint32_t parentWord, PartRects& rects) {
   rects.inner.clear();
   rects.edges.clear();
   std::vector<Extent> extents;
@@ -126,7 +126,7 @@ void findPartRects(const scene::WorldGeometry& world, const gl::Scissor& bounds,
               hits[std::size_t(y - bounds.y) * std::size_t(bounds.width) + std::size_t(x - bounds.x)].x;
           isInner =
               isInner && parentIds[std::size_t(y) * std::size_t(widthPx) + std::size_t(x)].y == parentWord;
-          if (hit != 0) addPixel(extents, world.triangleParts[hit - 1], x, y);
+          if (hit != 0) addPixel(extents, triangleParts[hit - 1], x, y);
         }
       for (const Extent& e : extents)
         (isInner ? rects.inner : rects.edges)

@@ -4,9 +4,9 @@
 // In:  virtual vertices of the tessellated scene, and which triangles are worth drawing.
 // Out: HitShading's image of hits, and the rectangles of pixels in which each part is seen.
 // Steps:
-//   1. Once: a mesh whose triangles' last corners carry the number of the world triangle that each was cut
-//      from. Most vertices can serve one triangle; where none of a triangle's corners is free, one is
-//      doubled.
+//   1. Once: a mesh whose triangles' last corners carry the number of the triangle, of the world or of a
+//      level of detail, that each was cut from. Most vertices can serve one triangle; where none of a
+//      triangle's corners is free, one is doubled.
 //   2. Each frame: triangles dropped that no pixel's centre lies in (most of them, where they are smaller
 //   than
 //      pixels: a rasterizer would take ten times as long to find out); virtual vertices copied to their
@@ -44,10 +44,12 @@ struct PartRects {
   std::vector<CoverRect> inner, edges;
 };
 
-/// From the hits of `bounds` (HitShading::readHits()) and the level's ids (FrameContext::parentIds), whose
-/// rows are `widthPx` long; pixels of the mirror have the word `parentWord`.
-void findPartRects(const scene::WorldGeometry& world, const gl::Scissor& bounds, std::span<const uvec2> hits,
-                   std::span<const uvec2> parentIds, int widthPx, std::uint32_t parentWord, PartRects& rects);
+/// From the hits of `bounds` (HitShading::readHits()), the part of each triangle by its number, and the
+/// level's ids (FrameContext::parentIds), whose rows are `widthPx` long; pixels of the mirror have the word
+/// `parentWord`.
+void findPartRects(std::span<const std::uint32_t> triangleParts, const gl::Scissor& bounds,
+                   std::span<const uvec2> hits, std::span<const uvec2> parentIds, int widthPx,
+                   std::uint32_t parentWord, PartRects& rects);
 
 /// How virtual vertices get to the pixels of a picture.
 struct PictureView {

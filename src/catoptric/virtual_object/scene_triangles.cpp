@@ -47,18 +47,12 @@ std::uint32_t findCoverFlags(const raster::SceneBuffers& scene, std::uint32_t pa
 }
 
 bool SceneTriangles::fits(const scene::WorldGeometry& world) {
-  const std::size_t most = std::max(world.triangleCount(), kVertexTexels * world.positions.size());
+  const std::size_t most = std::max(2 * world.triangleCount(), kVertexTexels * world.positions.size());
   return findTableSize(most).y <= gl::maxTextureSize();
 }
 
-SceneTriangles::SceneTriangles(const raster::SceneBuffers& scene) {
+SceneTriangles::SceneTriangles(const raster::SceneBuffers& scene) : levels_(scene.levelsSoFar()) {
   const scene::WorldGeometry& world = scene.geometry();
-  std::vector<uvec4> triangles(world.triangleCount());
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const std::uint32_t part = world.triangleParts[i];
-    triangles[i] = {world.indices[3 * i], world.indices[3 * i + 1], world.indices[3 * i + 2],
-                    part * 4u + (findCoverFlags(scene, part) & kCoverSingleSided)};
-  }
   for (const scene::Part& part : world.parts) {
     unsigned bits = 0;
     for (std::uint32_t v = part.firstVertex; v < part.firstVertex + part.vertexCount; ++v)
@@ -66,17 +60,52 @@ SceneTriangles::SceneTriangles(const raster::SceneBuffers& scene) {
           (world.colors[v] != vec4(1) ? kWithColors : 0u) | (world.uv1[v] != vec2(0) ? kWithSecondUv : 0u);
     attributes_.push_back(bits);
   }
-  triangles_ = makeTable(gl::Format::Rgba32Ui, triangles);
-  std::vector<vec4> vertices(kVertexTexels * world.positions.size());
-  for (std::size_t i = 0; i < world.positions.size(); ++i) {
-    vec4* texel = &vertices[kVertexTexels * i];
+  writeTriangles(scene);
+  triangles_ = makeTable(gl::Format::Rgba32Ui, triangleTexels_);
+  vertexTexels_.resize(kVertexTexels * world.positions.size());
+  for (const scene::Part& part : world.parts) writeVertices(world, part);
+  vertices_ = makeTable(gl::Format::Rgba32F, vertexTexels_);
+}
+
+void SceneTriangles::update(const raster::SceneBuffers& scene, std::span<const std::uint32_t> movedParts) {
+  const scene::WorldGeometry& world = scene.geometry();
+  bool hasTurned = false;
+  for (const std::uint32_t p : movedParts) {
+    const scene::Part& part = world.parts[p];
+    writeVertices(world, part);
+    hasTurned = hasTurned || (part.indexCount > 0 &&
+                              triangleTexels_[part.firstIndex / 3].y != world.indices[part.firstIndex + 1]);
+  }
+  vertices_->upload(0, 0, vertexTexels_.data());
+  if (!hasTurned) return;
+  writeTriangles(scene);
+  triangleTexels_.resize(std::size_t(triangles_->width()) * std::size_t(triangles_->height()));
+  triangles_->upload(0, 0, triangleTexels_.data());
+}
+
+void SceneTriangles::writeTriangles(const raster::SceneBuffers& scene) {
+  const scene::WorldGeometry& world = scene.geometry();
+  std::vector<std::uint32_t> flags;
+  for (std::uint32_t part = 0; part < world.parts.size(); ++part)
+    flags.push_back(part * 4u + (findCoverFlags(scene, part) & kCoverSingleSided));
+  triangleTexels_.clear();
+  const auto add = [&](std::span<const std::uint32_t> corners, std::span<const std::uint32_t> parts) {
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      triangleTexels_.emplace_back(corners[3 * i], corners[3 * i + 1], corners[3 * i + 2], flags[parts[i]]);
+  };
+  add(world.indices, world.triangleParts);
+  if (levels_) add(levels_->indices(), levels_->triangleParts().subspan(world.triangleCount()));
+}
+
+void SceneTriangles::writeVertices(const scene::WorldGeometry& world, const scene::Part& part) {
+  for (std::size_t i = part.firstVertex; i < part.firstVertex + part.vertexCount; ++i) {
+    vec4* texel = &vertexTexels_[kVertexTexels * i];
     texel[0] = vec4(world.positions[i], world.uv0[i].x);
     texel[1] = vec4(world.normals[i], world.uv0[i].y);
     texel[2] = world.tangents[i];
     texel[3] = world.colors[i];
     texel[4] = vec4(world.uv1[i], 0.0f, 0.0f);
   }
-  vertices_ = makeTable(gl::Format::Rgba32F, vertices);
 }
 
 }  // namespace catoptric::virtual_object

@@ -24,19 +24,30 @@ enum VertexAttribute : unsigned { kWithColors = 32, kWithSecondUv = 64 };
 
 class SceneTriangles {
  public:
-  /// Do the scene's vertices and triangles fit into textures of this GL?
+  /// Do the scene's vertices and triangles, and as many of levels of detail, fit into textures of this GL?
   [[nodiscard]] static bool fits(const scene::WorldGeometry& world);
-  /// Throws core::Error("gl.texture_size") for a scene that does not fit.
+  /// With those of SceneBuffers::levels(), if there are any by now. Throws core::Error("gl.texture_size") for
+  /// a scene that does not fit.
   explicit SceneTriangles(const raster::SceneBuffers& scene);
+  /// After vertices of these parts have moved, or turned their winding.
+  void update(const raster::SceneBuffers& scene, std::span<const std::uint32_t> movedParts);
 
   [[nodiscard]] const gl::Texture& triangles() const { return *triangles_; }
   [[nodiscard]] const gl::Texture& vertices() const { return *vertices_; }
 
+  /// The levels that are among them, null if none are.
+  [[nodiscard]] const raster::LevelsOfDetail* levels() const { return levels_; }
   /// Bits of VertexAttribute.
   [[nodiscard]] unsigned attributes(std::uint32_t part) const { return attributes_[part]; }
 
  private:
+  void writeTriangles(const raster::SceneBuffers& scene);
+  void writeVertices(const scene::WorldGeometry& world, const scene::Part& part);
+
+  const raster::LevelsOfDetail* levels_;
   std::vector<unsigned> attributes_;  ///< by part
+  std::vector<uvec4> triangleTexels_;
+  std::vector<vec4> vertexTexels_;
   std::unique_ptr<gl::Texture> triangles_, vertices_;
 };
 

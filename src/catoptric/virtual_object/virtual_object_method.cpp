@@ -3,23 +3,62 @@
 // dropping fragments before the mirror's own depth, 3 the environment in the mirror direction behind it.
 #include "catoptric/virtual_object/virtual_object_method.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <limits>
 
 #include "catoptric/virtual_object/make_point_finder.h"
 
 namespace catoptric::virtual_object {
 
 VirtualObjectMethod::Prepared::Prepared(const scene::WorldGeometry& world, std::uint32_t reflector,
-                                        bool flipped, const raster::TessellationOptions& tessellation)
-    : maxErrorPx(tessellation.maxErrorPx),
+                                        bool flipped, const raster::TessellationOptions& options)
+    : maxErrorPx(options.maxErrorPx),
+      sizePx(options.reflectorDiameterPx),
       isFromBehind(flipped),
       mesh(world, reflector, ReflectorMeshOptions{.flipped = flipped}),
-      objects(raster::tessellateForReflector(world, reflector, tessellation)),
+      tessellation(world, reflector, options),
+      objects(tessellation.objects()),
       runs(objects, VirtualObjectSolver::kRunLength),
       pass(objects),
       virtualPositions(objects.positions.size()),
       reflectionPoints(objects.positions.size()),
       kinds(objects.positions.size()) {}
+
+void VirtualObjectMethod::Prepared::update(const scene::WorldGeometry& world) {
+  if (movedParts.empty()) return;
+  std::sort(movedParts.begin(), movedParts.end());
+  movedParts.erase(std::unique(movedParts.begin(), movedParts.end()), movedParts.end());
+  tessellation.update(world, movedParts);
+  movedParts.clear();
+  runs = VertexRuns(objects, VirtualObjectSolver::kRunLength);
+  pass.objectsChanged();
+  numbered.reset();
+  gpu.reset();
+  virtualPositions.resize(objects.positions.size());
+  reflectionPoints.resize(objects.positions.size());
+  kinds.resize(objects.positions.size());
+  isFoundOnCpu = false;
+}
+
+void VirtualObjectMethod::partsMoved(const scene::WorldGeometry& world,
+                                     std::span<const std::uint32_t> parts) {
+  last_.clear();
+  std::erase_if(prepared_, [&](const auto& entry) {
+    const std::uint32_t own = world.reflectors[std::get<0>(entry.first)].part;
+    return std::find(parts.begin(), parts.end(), own) != parts.end();
+  });
+  for (auto& [key, prepared] : prepared_)
+    prepared->movedParts.insert(prepared->movedParts.end(), parts.begin(), parts.end());
+}
+
+/// For markVirtualTriangles(): the chord whose sag is a pixel, where the mirror covers the pixels that it was
+/// prepared for.
+float VirtualObjectMethod::findLongestChord(const Prepared& p) {
+  if (p.mesh.ordinaryCount() != p.mesh.triangles().size()) return std::numeric_limits<float>::infinity();
+  return float(p.mesh.bodyRadius() * std::sqrt(16.0 / p.sizePx));
+}
 
 VirtualObjectMethod::Prepared& VirtualObjectMethod::prepareReflector(const raster::FrameContext& frame,
                                                                      const raster::Chain& chain,
@@ -39,14 +78,25 @@ VirtualObjectMethod::Prepared& VirtualObjectMethod::prepareReflector(const raste
   }
   const double size = raster::findTessellationSize(reflector, drawEye, frame.camera);
   const bool isMirrored = chain.drawFromWorld != dmat4(1.0);
-  const bool isSeenDirectly = !isMirrored && solver_ != Solver::Explosion;
-  std::unique_ptr<Prepared>& slot = prepared_[{*chain.curved, flipped, isMirrored, isSeenDirectly, size}];
-  if (!slot || slot->maxErrorPx != frame.maxErrorPx)
-    slot = std::make_unique<Prepared>(world, *chain.curved, flipped,
-                                      raster::TessellationOptions{.maxErrorPx = frame.maxErrorPx,
-                                                                  .reflectorDiameterPx = size,
-                                                                  .isSeenDirectly = isSeenDirectly,
-                                                                  .keepsBehind = isMirrored});
+  const Drawing drawing = findDrawing(chain, world);
+  std::unique_ptr<Prepared>& slot = prepared_[{*chain.curved, flipped, isMirrored, drawing, size}];
+  if (slot && slot->maxErrorPx == frame.maxErrorPx) {
+    slot->update(world);
+    return *slot;
+  }
+  raster::TessellationOptions options{
+      .maxErrorPx = frame.maxErrorPx, .reflectorDiameterPx = size, .keepsBehind = isMirrored};
+  if (drawing != Drawing::AsPublished) {
+    options.isSeenDirectly = !isMirrored;
+    options.levels = &frame.scene.levels();
+  }
+  std::vector<std::uint8_t> isPlain;
+  for (std::uint32_t part = 0; part < world.parts.size(); ++part)
+    isPlain.push_back((findCoverFlags(frame.scene, part) & (kCoverMasked | kCoverBlended)) == 0 ? 1 : 0);
+  if (drawing == Drawing::Numbered) options.shadedByRays = isPlain;
+  slot = std::make_unique<Prepared>(world, *chain.curved, flipped, options);
+  for (const std::uint8_t isNumbered : isPlain) slot->isDrawn.push_back(isNumbered ? 0 : 1);
+  slot->isNumbered = std::move(isPlain);
   return *slot;
 }
 
@@ -63,12 +113,13 @@ Solver VirtualObjectMethod::equipSolver(const scene::WorldGeometry& world, std::
 
 void VirtualObjectMethod::prepareSolver(const scene::WorldGeometry& world, const dvec3& drawEye,
                                         Prepared& prepared) const {
-  if (!prepared.solver) {
-    const core::Box& bounds = world.bounds;
-    const double farRadius = glm::length(bounds.centre() - prepared.mesh.centre()) + bounds.radius();
+  const core::Box& bounds = world.bounds;
+  const double farRadius = glm::length(bounds.centre() - prepared.mesh.centre()) + bounds.radius();
+  if (!prepared.solver || prepared.farRadius != farRadius) {
+    prepared.farRadius = farRadius;
+    prepared.finderOf = Solver::Refined;
     SolverOptions options;
-    if (solver_ ==
-        Solver::Refined)  // its maps only say where to start; a new eye pays for each of their pixels
+    if (solver_ == Solver::Refined)  // maps only say where to start; a new eye pays for each of their pixels
       options.mapResolution /= 2, options.seedResolution /= 2;
     prepared.solver = std::make_unique<VirtualObjectSolver>(prepared.mesh, drawEye, farRadius, options);
   } else if (prepared.solver->eye() != drawEye) {
@@ -118,6 +169,7 @@ void VirtualObjectMethod::drawObjects(raster::FrameContext& frame, const raster:
     const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
     frame.counters.virtualVerticesMs += spent.count();
   }
+  frame.counters.simplifiedTriangles += p.objects.simplifiedTriangles;
   if (chain.level == 1) last_[chain.last] = &p;
 
   // 2
@@ -136,7 +188,7 @@ void VirtualObjectMethod::drawObjects(raster::FrameContext& frame, const raster:
     drawOnGpu(frame, chain, view, p, target);
     return;
   }
-  if (usesNumbers(chain, frame.scene.geometry())) {
+  if (findDrawing(chain, frame.scene.geometry()) == Drawing::Numbered) {
     drawNumbered(frame, chain, view, p, target);
     return;
   }
@@ -148,16 +200,9 @@ void VirtualObjectMethod::drawObjects(raster::FrameContext& frame, const raster:
 void VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, const raster::Chain& chain,
                                        const raster::SurfaceView& view, Prepared& p, raster::Level& target) {
   const scene::WorldGeometry& world = frame.scene.geometry();
-  if (!p.numbered) {
-    p.numbered = std::make_unique<NumberedTriangles>(p.objects);
-    for (std::uint32_t part = 0; part < world.parts.size(); ++part) {
-      const bool isPlain = (findCoverFlags(frame.scene, part) & (kCoverMasked | kCoverBlended)) == 0;
-      p.isNumbered.push_back(isPlain ? 1 : 0);
-      p.isDrawn.push_back(isPlain ? 0 : 1);
-    }
-  }
+  if (!p.numbered) p.numbered = std::make_unique<NumberedTriangles>(p.objects);
   raster::markVirtualTriangles(p.objects, view.drawEye, p.virtualPositions, p.kinds, p.reflectionPoints,
-                               triangles_);
+                               triangles_, {}, findLongestChord(p));
   const PictureView picture{mat4(view.clipFromDraw), view.parent->widthPx, view.parent->heightPx,
                             view.windingFlipped};
   frame.counters.culledTriangles += dropUnseenTriangles(p.objects, world, picture, chain.bounds,
@@ -172,8 +217,8 @@ void VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, const raster
   shading_.beginHits(chain.bounds);
   p.numbered->draw(frame, view, numberProgram_, p.virtualPositions, triangles_.indices, ranges_);
   shading_.readHits(chain.bounds, hits_);
-  findPartRects(world, chain.bounds, hits_, frame.parentIds, view.parent->widthPx, chain.parentWord(),
-                rects_);
+  findPartRects(frame.scene.levels().triangleParts(), chain.bounds, hits_, frame.parentIds,
+                view.parent->widthPx, chain.parentWord(), rects_);
   shading_.shadeVirtual(frame, chain, *view.parent, target, false, rects_.inner);
   shading_.shadeVirtual(frame, chain, *view.parent, target, true, rects_.edges);
 

@@ -38,6 +38,8 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     last_.clear();
     prepared_.clear();
   }
+  /// Mirrors that have not moved keep their maps, and what has not moved keeps its cuts.
+  void partsMoved(const scene::WorldGeometry& world, std::span<const std::uint32_t> parts) override;
   void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
               raster::Level& target) override;
 
@@ -48,6 +50,10 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
                     const raster::MarkOptions& options, raster::Marks& marks) const override;
 
  private:
+  /// How virtual triangles get into the picture. AsPublished: all of them as they are, interpolated;
+  /// Interpolated: without what turns its back, with levels of detail; Numbered: besides, drawn as numbers
+  /// and shaded once a pixel.
+  enum class Drawing : std::uint8_t { AsPublished, Interpolated, Numbered };
   /// What the GPU backend keeps for one curved reflector.
   struct OnGpu {
     explicit OnGpu(const raster::TessellatedObjects& objects) : streams(objects) {}
@@ -62,16 +68,21 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   /// Everything kept for one curved reflector from frame to frame.
   struct Prepared {
     Prepared(const scene::WorldGeometry& world, std::uint32_t reflector, bool flipped,
-             const raster::TessellationOptions& tessellation);
-    double maxErrorPx;
-    bool isFromBehind;  ///< the eye is behind a double-sided mirror
+             const raster::TessellationOptions& options);
+    /// After partsMoved(): what follows from the objects.
+    void update(const scene::WorldGeometry& world);
+    double maxErrorPx, sizePx;  ///< of its TessellationOptions
+    bool isFromBehind;          ///< the eye is behind a double-sided mirror
     ReflectorMesh mesh;
-    raster::TessellatedObjects objects;
+    raster::ReflectorTessellation tessellation;
+    const raster::TessellatedObjects& objects;  ///< of the tessellation
+    std::vector<std::uint32_t> movedParts;      ///< since they were cut
     VertexRuns runs;
     raster::VirtualObjectPass pass;
     std::unique_ptr<NumberedTriangles> numbered;    ///< made when first needed
     std::vector<std::uint8_t> isNumbered, isDrawn;  ///< by part: how it is drawn
     std::unique_ptr<VirtualObjectSolver> solver;
+    double farRadius = 0;               ///< that the solver was made for
     Solver finderOf = Solver::Refined;  ///< whose finder the solver was given
     std::vector<vec3> scenePoints;      ///< vertices mirrored by the planar links behind the curved one
     std::vector<vec3> virtualPositions, reflectionPoints;
@@ -84,6 +95,7 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   static void addTessellation(const scene::WorldGeometry& world, const Prepared& p, raster::Marks& marks);
   static void addCells(const Prepared& p, double rayLength, raster::Marks& marks);
   static void addPath(const Prepared& p, const dvec3& point, raster::Marks& marks);
+  [[nodiscard]] static float findLongestChord(const Prepared& prepared);
   void drawObjects(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
                    raster::Level& target);
   Prepared& prepareReflector(const raster::FrameContext& frame, const raster::Chain& chain,
@@ -98,10 +110,13 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   [[nodiscard]] Solver equipSolver(const scene::WorldGeometry& world, std::uint32_t reflector,
                                    Prepared& prepared) const;
 
-  /// Are triangles drawn as numbers, and shaded once a pixel? Not those of the method as published, nor those
-  /// that a flat mirror behind the curved one cuts, nor those of a scene too large for textures.
-  [[nodiscard]] bool usesNumbers(const raster::Chain& chain, const scene::WorldGeometry& world) const {
-    return solver_ == Solver::Refined && chain.last == *chain.curved && SceneTriangles::fits(world);
+  /// Numbers are not for flat mirrors behind the curved one, which cut triangles, nor for a scene too large
+  /// for textures, nor for a vertex shader.
+  [[nodiscard]] Drawing findDrawing(const raster::Chain& chain, const scene::WorldGeometry& world) const {
+    if (solver_ == Solver::Explosion) return Drawing::AsPublished;
+    const bool isNumbered =
+        solver_ == Solver::Refined && !onGpu_ && chain.last == *chain.curved && SceneTriangles::fits(world);
+    return isNumbered ? Drawing::Numbered : Drawing::Interpolated;
   }
   /// What a vertex shader has found, once more where the processor can read it.
   void completeOnCpu(const scene::WorldGeometry& world, std::uint32_t reflector, Prepared& prepared) const;
@@ -126,9 +141,9 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   std::vector<vec2> screen_;
   PartRects rects_;
   raster::MirrorBackgroundPass background_;
-  /// By reflector, whether it is seen from behind, whether flat mirrors stand behind it, whether objects that
-  /// turn their back to it are left out, size of the tessellation.
-  std::map<std::tuple<std::uint32_t, bool, bool, bool, double>, std::unique_ptr<Prepared>> prepared_;
+  /// By reflector, whether it is seen from behind, whether flat mirrors stand behind it, size of the
+  /// tessellation.
+  std::map<std::tuple<std::uint32_t, bool, bool, Drawing, double>, std::unique_ptr<Prepared>> prepared_;
   std::map<std::uint32_t, Prepared*> last_;  ///< of the last frame, by reflector seen directly
 };
 

@@ -147,7 +147,7 @@ TEST(NumberedTriangles, RectanglesHoldEachPartsPixels) {
   for (int i = 0; i < bounds.width * bounds.height; ++i) hits.emplace_back(random() % 5, 0);
   ids[20 * kWidth + 40].y = 8;  // another mirror's
   PartRects rects;
-  findPartRects(world, bounds, hits, ids, kWidth, 7, rects);
+  findPartRects(world.triangleParts, bounds, hits, ids, kWidth, 7, rects);
   EXPECT_FALSE(rects.inner.empty());
   std::vector<int> covered(hits.size(), 0);
   for (const auto* list : {&rects.inner, &rects.edges})

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -209,6 +210,36 @@ TEST(Selection, dropsWhatCannotBeSeenAndKeepsPartRuns) {
   selectVirtualTriangles(objects, eye, mirrored, kinds, points, out);
   EXPECT_EQ(out.indices.size(), 0u);
   EXPECT_EQ(out.parts.size(), objects.parts.size());
+}
+
+TEST(Selection, dropsPartlyHiddenTrianglesAlongALongChord) {
+  // A strip behind a sphere, from one side of its shadow to the other: two corners are seen at the rim, far
+  // from each other, the third is hidden.
+  TestWorld world(geometry::makeIcosphere(0.5, 12));
+  geometry::Mesh strip;
+  strip.positions = {{-1.8f, 0.2f, -6}, {1.8f, 0.2f, -6}, {0, 0.25f, -6}};
+  strip.normals.assign(3, vec3(0, 0, 1));
+  strip.indices = {0, 1, 2};
+  world.add(strip, false);
+  const dvec3 eye(0, 0, 3);
+  const ReflectorMesh mesh(world.geometry(), 0);
+  const VirtualObjectSolver solver(mesh, eye, 8.0);
+  const TessellatedObjects uncut =
+      tessellateForReflector(world.geometry(), 0, {.maxErrorPx = 1e9, .maxTriangles = 1});
+  std::vector<vec3> out(3), points(3);
+  std::vector<VertexKind> kinds(3);
+  solver.compute(Solver::Refined, uncut.positions, out, kinds, points);
+  ASSERT_EQ(std::count(kinds.begin(), kinds.end(), VertexKind::DoublyVirtual), 1);
+  ASSERT_EQ(std::count(kinds.begin(), kinds.end(), VertexKind::Reflected), 2);
+  VirtualTriangles triangles;
+  markVirtualTriangles(uncut, eye, out, kinds, points, triangles, {}, 0.1f);
+  EXPECT_EQ(triangles.isKept[0], 0);
+  // However long the chord is, of one whose corners are all reflected orientation decides.
+  std::fill(kinds.begin(), kinds.end(), VertexKind::Reflected);
+  VirtualTriangles all, some;
+  markVirtualTriangles(uncut, eye, out, kinds, points, all);
+  markVirtualTriangles(uncut, eye, out, kinds, points, some, {}, 0.1f);
+  EXPECT_EQ(all.isKept, some.isKept);
 }
 
 TEST(Selection, dropsTrianglesThatReachAroundTheShadow) {
