@@ -15,7 +15,8 @@
 //      there. kSagFactor is fitted to the worst 2 % of pixels of the test scenes (tests/unit/virtual_object).
 //      Close to the mirror, d below c, what it shows bends as the mirror itself does: an edge of length L by
 //      L^2 / (16 c), a quarter of what the formula says. Where each pixel's own ray meets the triangle, and
-//      depth and interpolation add nothing, edges are therefore split at k (d + kByRays c).
+//      depth and interpolation add nothing, edges are therefore split at k (d + kByRays c), if the
+//      mirror is as large as kByRays c.
 //   3. Before a part is cut: one that is nowhere nearer than d is seen, in a mirror of focal length c, c / (d
 //   + c) times
 //      as large as on the mirror's surface. The coarsest level of detail is taken whose error is then at most
@@ -152,15 +153,17 @@ const DetailLevel* ReflectorTessellation::findLevel(const scene::WorldGeometry& 
 CutOrder ReflectorTessellation::makeOrder(const scene::WorldGeometry& geometry, std::uint32_t p) const {
   const scene::Part& part = geometry.parts[p];
   const scene::Reflector* mirror = options_.isSeenDirectly ? &geometry.reflectors[reflector_] : nullptr;
-  CutOrder order{
-      .part = part,
-      .corners = std::span(geometry.indices).subspan(part.firstIndex, part.indexCount),
-      .firstTriangle = part.firstIndex / 3,
-      .distance = distance_,
-      .mirror = mirror,
-      .k = float(k_),
-      .floor = float(isShadedByRays(p) ? kByRays * distance_.focalLength() : distance_.focalLength()),
-      .budget = budget_};
+  // Not beyond the mirror's radius: triangles larger than an open mirror have corners that it cannot reflect.
+  const float c = distance_.focalLength(), radius = float(geometry.reflectors[reflector_].radius);
+  const float floor = isShadedByRays(p) ? std::max(c, std::min(kByRays * c, radius)) : c;
+  CutOrder order{.part = part,
+                 .corners = std::span(geometry.indices).subspan(part.firstIndex, part.indexCount),
+                 .firstTriangle = part.firstIndex / 3,
+                 .distance = distance_,
+                 .mirror = mirror,
+                 .k = float(k_),
+                 .floor = floor,
+                 .budget = budget_};
   if (const DetailLevel* level = findLevel(geometry, p)) {
     order.corners = options_.levels->corners(*level);
     order.firstTriangle = level->firstTriangle;

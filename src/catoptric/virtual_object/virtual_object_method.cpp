@@ -119,7 +119,8 @@ void VirtualObjectMethod::prepareSolver(const scene::WorldGeometry& world, const
     prepared.farRadius = farRadius;
     prepared.finderOf = Solver::Refined;
     SolverOptions options;
-    if (solver_ == Solver::Refined)  // maps only say where to start; a new eye pays for each of their pixels
+    if (solver_ ==
+        Solver::Refined)  // its maps only say where to start; a new eye pays for each of their pixels
       options.mapResolution /= 2, options.seedResolution /= 2;
     prepared.solver = std::make_unique<VirtualObjectSolver>(prepared.mesh, drawEye, farRadius, options);
   } else if (prepared.solver->eye() != drawEye) {
