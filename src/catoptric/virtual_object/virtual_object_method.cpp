@@ -21,6 +21,12 @@ VirtualObjectMethod::Prepared::Prepared(const scene::WorldGeometry& world, std::
       reflectionPoints(objects.positions.size()),
       kinds(objects.positions.size()) {}
 
+VirtualObjectMethod::InParts::InParts(const ReflectorMesh& mesh) : InParts(mesh, cutIntoParts(mesh)) {}
+
+VirtualObjectMethod::InParts::InParts(const ReflectorMesh& mesh, CutMirror cut) : buffers(mesh, cut) {
+  for (MirrorPart& part : cut.parts) parts.push_back({std::move(part), nullptr});
+}
+
 VirtualObjectMethod::Prepared& VirtualObjectMethod::prepareReflector(const raster::FrameContext& frame,
                                                                      const raster::Chain& chain,
                                                                      const dvec3& drawEye) {
@@ -99,24 +105,51 @@ void VirtualObjectMethod::computeVirtualVertices(raster::FrameContext& frame, co
   prepared.isFoundOnCpu = wanted.empty();
 }
 
-void VirtualObjectMethod::drawObjects(raster::FrameContext& frame, const raster::Chain& chain,
+bool VirtualObjectMethod::drawObjects(raster::FrameContext& frame, const raster::Chain& chain,
                                       const raster::Level& parent, raster::Level& target) {
   // 1
   const dvec3 drawEye = dvec3(glm::inverse(chain.screenFromDraw) * dvec4(frame.camera.eye, 1.0));
   Prepared& p = prepareReflector(frame, chain, drawEye);
-  if (p.objects.indices.empty()) return;
+  if (p.objects.indices.empty()) return false;
+  const raster::SurfaceView view = makeView(frame, chain, drawEye, parent);
+  p.eye = drawEye;
+  if (chain.level == 1) last_[chain.last] = &p;
+  if (isInParts(p, frame.scene.geometry())) {
+    p.isFoundOnCpu = false;
+    if (usesNumbers(chain, frame.scene.geometry()) && !hasCutOuts(frame.scene))
+      drawInParts(frame, chain, view, parent, target, p);
+    else
+      exact_.render(frame, chain, parent, target);
+    return true;
+  }
   const auto start = std::chrono::steady_clock::now();
   prepareSolver(frame.scene.geometry(), drawEye, p);
-  if (!p.solver->canReflect()) return;
+  if (!p.solver->canReflect()) return false;
   const bool onGpu = usesGpu(p);
   if (!onGpu) {
     computeVirtualVertices(frame, chain, p);
     const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
     frame.counters.virtualVerticesMs += spent.count();
   }
-  if (chain.level == 1) last_[chain.last] = &p;
 
   // 2
+  if (onGpu) {
+    drawOnGpu(frame, chain, view, p, target);
+    return false;
+  }
+  if (usesNumbers(chain, frame.scene.geometry())) {
+    drawNumbered(frame, chain, view, p, target);
+    return false;
+  }
+  const bool isMirrored = chain.drawFromWorld != dmat4(1.0);
+  p.pass.draw(frame, view, p.virtualPositions, p.kinds, p.reflectionPoints,
+              isMirrored ? std::span<const vec3>(p.scenePoints) : std::span<const vec3>(), target);
+  return false;
+}
+
+raster::SurfaceView VirtualObjectMethod::makeView(const raster::FrameContext& frame,
+                                                  const raster::Chain& chain, const dvec3& drawEye,
+                                                  const raster::Level& parent) {
   raster::SurfaceView view;
   view.clipFromDraw =
       raster::makeClipFromWorld(frame.camera, frame.nearPlane, frame.jitterPx) * chain.screenFromDraw;
@@ -128,30 +161,23 @@ void VirtualObjectMethod::drawObjects(raster::FrameContext& frame, const raster:
   const auto& reflectors = frame.scene.geometry().reflectors;
   if (chain.last != *chain.curved)
     raster::clipAtLastMirror(reflectors[chain.last], chain.last, reflectors[*chain.curved].centre, view);
-  if (onGpu) {
-    drawOnGpu(frame, chain, view, p, target);
-    return;
+  return view;
+}
+
+void VirtualObjectMethod::prepareNumbers(const raster::FrameContext& frame, Prepared& p) {
+  if (p.numbered) return;
+  p.numbered = std::make_unique<NumberedTriangles>(p.objects);
+  for (std::uint32_t part = 0; part < frame.scene.geometry().parts.size(); ++part) {
+    const bool isPlain = (findCoverFlags(frame.scene, part) & (kCoverMasked | kCoverBlended)) == 0;
+    p.isNumbered.push_back(isPlain ? 1 : 0);
+    p.isDrawn.push_back(isPlain ? 0 : 1);
   }
-  if (usesNumbers(chain, frame.scene.geometry())) {
-    drawNumbered(frame, chain, view, p, target);
-    return;
-  }
-  const bool isMirrored = chain.drawFromWorld != dmat4(1.0);
-  p.pass.draw(frame, view, p.virtualPositions, p.kinds, p.reflectionPoints,
-              isMirrored ? std::span<const vec3>(p.scenePoints) : std::span<const vec3>(), target);
 }
 
 void VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, const raster::Chain& chain,
                                        const raster::SurfaceView& view, Prepared& p, raster::Level& target) {
   const scene::WorldGeometry& world = frame.scene.geometry();
-  if (!p.numbered) {
-    p.numbered = std::make_unique<NumberedTriangles>(p.objects);
-    for (std::uint32_t part = 0; part < world.parts.size(); ++part) {
-      const bool isPlain = (findCoverFlags(frame.scene, part) & (kCoverMasked | kCoverBlended)) == 0;
-      p.isNumbered.push_back(isPlain ? 1 : 0);
-      p.isDrawn.push_back(isPlain ? 0 : 1);
-    }
-  }
+  prepareNumbers(frame, p);
   raster::markVirtualTriangles(p.objects, view.drawEye, p.virtualPositions, p.kinds, p.reflectionPoints,
                                triangles_);
   const PictureView picture{mat4(view.clipFromDraw), view.parent->widthPx, view.parent->heightPx,
@@ -180,9 +206,9 @@ void VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, const raster
 
 void VirtualObjectMethod::render(raster::FrameContext& frame, const raster::Chain& chain,
                                  const raster::Level& parent, raster::Level& target) {
-  drawObjects(frame, chain, parent, target);
+  const bool isComplete = drawObjects(frame, chain, parent, target);
   // 3
-  background_.draw(frame.scene, chain, parent, target);
+  if (!isComplete) background_.draw(frame.scene, chain, parent, target);
 }
 
 }  // namespace catoptric::virtual_object
