@@ -200,6 +200,8 @@ Json makeJson(const Comparison& comparison, const ComparisonRow& row) {
   json["virtual_vertices"] = times.counters.virtualVertices;
   json["virtual_triangles"] = times.counters.virtualTriangles;
   json["fragment_tests"] = times.counters.fragmentTests;
+  json["virtual_pixels"] = times.counters.virtualPixels;
+  json["bounded_pixels"] = times.counters.boundedPixels;
   json["virtual_vertices_per_s"] = rate(times.virtualVerticesPerS);
   json["zexels"] = times.counters.zexels;
   json["zexels_per_s"] = rate(times.zexelsPerS);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "commands.h"
 #include "documents.h"
@@ -25,8 +27,31 @@ std::string methodText(const renderer::MethodChoice& choice) {
   return isCurved ? text + "/" + std::string(renderer::solverName(choice.solver)) : text;
 }
 
-Json describeReflector(const LoadedScene& loaded, const scene::Reflector& reflector) {
-  const renderer::MethodChoice choice = renderer::Renderer::chooseMethod(reflector);
+/// What auto picks for each mirror in the view of the scene's first camera, at the default size.
+std::vector<renderer::MethodChoice> chooseMethods(const LoadedScene& loaded) {
+  const renderer::FrameOptions defaults;
+  const renderer::MethodChooser chooser(loaded.geometry);
+  std::vector<renderer::MethodChoice> choices;
+  for (std::uint32_t i = 0; i < loaded.geometry.reflectors.size(); ++i)
+    choices.push_back(loaded.scene.cameras.empty()
+                          ? renderer::Renderer::chooseMethod(loaded.geometry.reflectors[i])
+                          : chooser.choose(i, scene::makeCameraFrame(loaded.scene.cameras[0],
+                                                                     defaults.widthPx, defaults.heightPx)));
+  return choices;
+}
+
+Json describeForecast(const renderer::MethodChoice& choice) {
+  if (!choice.forecast) return {};
+  const renderer::ViewForecast& f = *choice.forecast;
+  return {{"parts", f.parts},
+          {"pixels", f.pixels},
+          {"one_to_one_share", f.oneToOne},
+          {"near_focus_share", f.nearFocus},
+          {"self_share", f.self}};
+}
+
+Json describeReflector(const LoadedScene& loaded, const scene::Reflector& reflector,
+                       const renderer::MethodChoice& choice) {
   const bool hasMaterial =
       reflector.material >= 0 && std::size_t(reflector.material) < loaded.scene.materials.size();
   return {{"name", reflector.name},
@@ -47,10 +72,11 @@ Json describeReflector(const LoadedScene& loaded, const scene::Reflector& reflec
           {"auto",
            {{"method", std::string(renderer::methodName(choice.method))},
             {"solver", std::string(renderer::solverName(choice.solver))},
-            {"reason", choice.reason}}}};
+            {"reason", choice.reason},
+            {"view", describeForecast(choice)}}}};
 }
 
-Json describeScene(const LoadedScene& loaded) {
+Json describeScene(const LoadedScene& loaded, std::span<const renderer::MethodChoice> choices) {
   const scene::Scene& scene = loaded.scene;
   const scene::WorldGeometry& geometry = loaded.geometry;
   Json json{{"name", loaded.name},
@@ -73,8 +99,8 @@ Json describeScene(const LoadedScene& loaded) {
   for (const scene::Animation& animation : scene.motion.animations)
     json["animations"].push_back({{"name", animation.name}, {"duration_s", animation.durationS}});
   json["reflectors"] = Json::array();
-  for (const scene::Reflector& reflector : geometry.reflectors)
-    json["reflectors"].push_back(describeReflector(loaded, reflector));
+  for (std::size_t i = 0; i < geometry.reflectors.size(); ++i)
+    json["reflectors"].push_back(describeReflector(loaded, geometry.reflectors[i], choices[i]));
   json["warnings"] = scene.warnings;
   return json;
 }
@@ -120,7 +146,7 @@ std::string describeMorphing(const scene::Reflector& reflector) {
                      reflector.morphedReason);
 }
 
-std::string makeReflectorTable(const LoadedScene& loaded) {
+std::string makeReflectorTable(const LoadedScene& loaded, std::span<const renderer::MethodChoice> choices) {
   const auto& reflectors = loaded.geometry.reflectors;
   if (reflectors.empty())
     return "\nno reflectors: no material is a mirror (metallic >= 0.9 and roughness <= 0.05, clearcoat, or "
@@ -128,8 +154,9 @@ std::string makeReflectorTable(const LoadedScene& loaded) {
   std::vector<std::vector<std::string>> rows{
       {"reflector", "shape", "fit error", "convex", "radius m", "area m2", "triangles", "auto picks"}};
   std::string reasons;
-  for (const scene::Reflector& reflector : reflectors) {
-    const renderer::MethodChoice choice = renderer::Renderer::chooseMethod(reflector);
+  for (std::size_t i = 0; i < reflectors.size(); ++i) {
+    const scene::Reflector& reflector = reflectors[i];
+    const renderer::MethodChoice& choice = choices[i];
     rows.push_back({reflector.name, std::string(scene::shapeName(reflector.shape)),
                     fmt::format("{:.2g}", reflector.fitError), reflector.isConvex ? "yes" : "no",
                     fmt::format("{:.4g}", reflector.radius), fmt::format("{:.4g}", reflector.areaWorld),
@@ -165,14 +192,15 @@ int run(const Options& options) {
   }
   const auto loaded = loadScene(options.source, options.scene);
   renderer::Renderer renderer(loaded->scene, loaded->geometry, loaded->environment);
+  const std::vector<renderer::MethodChoice> choices = chooseMethods(*loaded);
   if (!options.output.json.empty()) {
     Json document = makeDocument("info", nullptr);
     addGl(renderer, document["environment"]);
-    document.update(describeScene(*loaded));
+    document.update(describeScene(*loaded, choices));
     writeDocument(options.output.json, document);
   }
   if (options.output.json != "-")
-    printData(makeSummary(*loaded) + describeBackend(renderer) + makeReflectorTable(*loaded));
+    printData(makeSummary(*loaded) + describeBackend(renderer) + makeReflectorTable(*loaded, choices));
   return 0;
 }
 

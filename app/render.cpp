@@ -66,6 +66,8 @@ Json makeFrameJson(const renderer::FrameOptions& options, const renderer::Frame&
             {"virtual_triangles", counters.virtualTriangles},
             {"looked_up_vertices", counters.lookedUpVertices},
             {"fragment_tests", counters.fragmentTests},
+            {"virtual_pixels", counters.virtualPixels},
+            {"bounded_pixels", counters.boundedPixels},
             {"reflectors_drawn", counters.reflectorsDrawn},
             {"reflectors_culled", counters.reflectorsCulled},
             {"zexels", counters.zexels},

@@ -135,6 +135,8 @@ void readOptions(const SessionValue& value, viewer::Session& session) {
       frame.maxErrorPx = member.number(0.01, 1e6);
     else if (name == "mapped_below")
       frame.mappedBelowPixels = member.integer(0, 1 << 30);
+    else if (name == "all_parts")
+      frame.allParts = member.flag();
     else if (name == "merge")
       frame.merge = member.choice(renderer::Merge::Texture, renderer::mergeName);
     else if (name == "texture_scale")
@@ -244,6 +246,7 @@ Json makeOptionsJson(const viewer::Session& session) {
                {"samples", frame.samples},
                {"max_error_px", frame.maxErrorPx},
                {"mapped_below", frame.mappedBelowPixels},
+               {"all_parts", frame.allParts},
                {"merge", renderer::mergeName(frame.merge)},
                {"texture_scale", frame.textureScale},
                {"exposure", session.exposure},

@@ -165,6 +165,16 @@ void declareBackend(Arguments& arguments, renderer::FrameOptions& options) {
       [&](const std::string& text) {
         options.backend = choose("--backend", text, kBackends, renderer::backendName);
       });
+  arguments.option(
+      "--parts", "NAME",
+      "Of solver refined, which parts of mirrors that are not convex get virtual objects: those where they "
+      "are "
+      "expected to be right and faster than solver exact (cheapest, the default), or right (all)",
+      [&](const std::string& text) {
+        if (text != "all" && text != "cheapest")
+          throw UsageError(fmt::format("--parts: there is no '{}'", text), "use cheapest or all");
+        options.allParts = text == "all";
+      });
 }
 
 void declareBaked(Arguments& arguments, renderer::FrameOptions& options) {

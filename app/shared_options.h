@@ -51,7 +51,7 @@ void declareMerge(Arguments& arguments, renderer::FrameOptions& frame);
 void checkMerge(const renderer::FrameOptions& options, bool usesTexture);
 /// What is drawn however it is drawn: --size, --bounces, --samples, ...
 void declarePicture(Arguments& arguments, PictureOptions& options);
-/// --backend
+/// --backend, --parts
 void declareBackend(Arguments& arguments, renderer::FrameOptions& options);
 /// --baked
 void declareBaked(Arguments& arguments, renderer::FrameOptions& options);

@@ -50,9 +50,11 @@ core::ImageRgba8 draw(const Subject& subject, const scene::WorldGeometry& world,
   renderer::Renderer renderer(subject.scene, world, sky());
   return core::toneMap(renderer
                            .render(subject.camera, {.method = method,
+                                                    .solver = subject.solver,
                                                     .widthPx = sizePx,
                                                     .heightPx = sizePx,
                                                     .bounces = subject.bounces,
+                                                    .allParts = subject.allParts,
                                                     .withSeen = false})
                            .radiance);
 }

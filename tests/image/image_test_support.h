@@ -25,6 +25,8 @@ struct Subject {
   const scene::WorldGeometry& world;
   scene::Camera camera;
   int bounces = 1;
+  renderer::Solver solver = renderer::Solver::Auto;
+  bool allParts = false;  ///< FrameOptions::allParts
 };
 
 /// Expects the raster picture of `subject` to keep the limits, and that of `twin`, its world with a fault in

@@ -171,6 +171,15 @@ TEST(Picture, mirrorOfMixedCurvature) {
                {8, 0.15, "solver exact: rounding, and edges that fall to the other side of a pixel"});
 }
 
+TEST(Picture, virtualObjectsInParts) {
+  Subject subject = subjectOf("wavy-wall");  // crests by virtual objects, troughs by solver exact
+  subject.solver = renderer::Solver::Refined;
+  subject.allParts = true;
+  expectWithin(
+      subject, withTurnedNormals(subject.world, 0.005),
+      {12, 0.2, "thin poles and the frame at the mirror's edge, a tenth of a pixel beside their place"});
+}
+
 TEST(Picture, refraction) {
   const Subject subject = subjectOf("lenses");
   expectWithin(

@@ -93,6 +93,15 @@ void Framebuffer::readPixelsInPlace(int attachment, const Scissor& pixels, std::
   glPixelStorei(GL_PACK_ROW_LENGTH, 0);
 }
 
+void Framebuffer::readPixelsInPlace(int attachment, const Scissor& pixels, std::span<vec4> out) const {
+  glPixelStorei(GL_PACK_ROW_LENGTH, width_);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
+  glReadBuffer(GL_COLOR_ATTACHMENT0 + unsigned(attachment));
+  const std::size_t first = std::size_t(pixels.y) * std::size_t(width_) + std::size_t(pixels.x);
+  glReadPixels(pixels.x, pixels.y, pixels.width, pixels.height, GL_RGBA, GL_FLOAT, out.subspan(first).data());
+  glPixelStorei(GL_PACK_ROW_LENGTH, 0);
+}
+
 void Framebuffer::copyToCubeFace(int attachment, const Texture& cube, int face) const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
   glReadBuffer(GL_COLOR_ATTACHMENT0 + unsigned(attachment));

@@ -39,6 +39,7 @@ class Framebuffer {
   void readPixels(int attachment, const Scissor& pixels, std::span<uvec2> out) const;
   /// The same, each pixel to where it would be if all were read; others are left as they are.
   void readPixelsInPlace(int attachment, const Scissor& pixels, std::span<uvec2> out) const;
+  void readPixelsInPlace(int attachment, const Scissor& pixels, std::span<vec4> out) const;
 
   /// Copies a colour attachment into level 0 of a face of a cube texture of the same size and format.
   void copyToCubeFace(int attachment, const Texture& cube, int face) const;

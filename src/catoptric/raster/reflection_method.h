@@ -19,6 +19,8 @@ struct MethodCounters {
   std::uint64_t culledTriangles = 0;      ///< in which no pixel has its centre, or that turn their back
   std::uint64_t simplifiedTriangles = 0;  ///< TessellatedObjects::simplifiedTriangles
   std::uint64_t fragmentTests = 0;
+  std::uint64_t virtualPixels = 0;  ///< of mirrors drawn in parts: shown by virtual objects
+  std::uint64_t boundedPixels = 0;  ///< likewise: left to solver `exact`
   double virtualVerticesMs = 0;
   std::uint64_t lookedUpVertices = 0;  ///< of morphing: searched in the octrees, the others were kept
   double lookUpMs = 0;
@@ -42,6 +44,7 @@ struct FrameContext {
   double maxErrorPx = 0.5;
   Merge merge = Merge::Ids;
   double textureScale = 1;  ///< of Merge::Texture: its pixels along an edge : the picture's
+  bool allParts = false;    ///< of virtual objects in parts: whatever they cost
   MethodCounters& counters;
   /// Of the chain that render() gets: surfaces are drawn so, or by looking up ids.
   Masking masking{};

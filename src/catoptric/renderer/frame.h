@@ -16,6 +16,7 @@
 #include "catoptric/core/image.h"
 #include "catoptric/core/seen.h"
 #include "catoptric/depth_reflection_map/zexel_options.h"
+#include "catoptric/geometry/triangle_hierarchy.h"
 #include "catoptric/raster/mark_options.h"
 #include "catoptric/raster/merge.h"
 #include "catoptric/scene/camera_frame.h"
@@ -60,7 +61,10 @@ struct FrameOptions {
   double textureScale = 1;   ///< Merge::Texture: resolution of the textures : the picture's, at most 1
   int samples = 1;           ///< per pixel, for radiance; what is seen is always sampled at the pixel centre
   double maxErrorPx = 0.5;   ///< aim of the tessellation of reflected objects
-  bool boxCorrected = true;  ///< Environment: parallax-corrected by the box of the room; false: plain
+  /// Refined, mirrors that are not convex: a virtual object for each part where it is expected to be right,
+  /// even if solver Exact is expected to be faster there.
+  bool allParts = false;
+  bool boxCorrected = true;      ///< Environment: parallax-corrected by the box of the room; false: plain
   int environmentMapSize = 512;  ///< Environment: edge of a cube face, texels
   std::string bakedFile{};       ///< Morphing: of `catoptric bake`; empty: baked where the eye is
   int mappedBelowPixels = 1024;  ///< Morphing: mirrors that cover fewer pixels get environment maps
@@ -92,6 +96,8 @@ struct FrameCounters {
   std::uint64_t culledVertices = 0;    ///< not sought, because no reflected ray comes near their triangles
   std::uint64_t virtualTriangles = 0;  ///< drawn into reflection images
   std::uint64_t fragmentTests = 0;     ///< Exact: pixels that met a triangle offered to them, or did not
+  std::uint64_t virtualPixels = 0;     ///< Refined, mirrors not convex: shown by virtual objects
+  std::uint64_t boundedPixels = 0;     ///< of the same, left to Exact
   std::uint64_t lookedUpVertices = 0;  ///< Morphing: searched in the octrees in this frame
   std::uint64_t morphedTraces = 0;     ///< Morphing: traces that the vertices went through, of one sample
   std::uint64_t reflectorsDrawn = 0, reflectorsCulled = 0;
@@ -119,12 +125,35 @@ struct ElsewhereOptions {
   bool operator==(const ElsewhereOptions&) const = default;
 };
 
+/// What virtual objects would show of a curved mirror (virtual_object/mixed/view_forecast.h); shares 0 to 1.
+struct ViewForecast {
+  std::size_t parts = 0;  ///< that bend one way
+  double pixels = 0;      ///< as if nothing stood before the mirror, nor the picture had a frame
+  double oneToOne = 0, nearFocus = 0, self = 0;
+};
+
 /// Why a reflector is drawn the way it is; for `info`.
 struct MethodChoice {
   Method method = Method::Virtual;
   Solver solver = Solver::Refined;
-  std::string reason;
-  std::string analytic;  ///< why solver Analytic cannot serve it; empty where it can
+  std::string reason{};
+  std::string analytic{};                  ///< why solver Analytic cannot serve it; empty where it can
+  std::optional<ViewForecast> forecast{};  ///< of a curved mirror, where a view was asked for
+};
+
+/// `auto` draws curved mirrors of fewer pixels by environment maps of few texels, in scenes that do not move.
+inline constexpr int kFewPixels = 16;
+
+/// What `auto` picks for mirrors of a scene in a view. The geometry must outlive it.
+class MethodChooser {
+ public:
+  explicit MethodChooser(const scene::WorldGeometry& geometry);
+  /// `reflector`: index into the geometry's. Takes some milliseconds for a curved mirror.
+  [[nodiscard]] MethodChoice choose(std::uint32_t reflector, const scene::CameraFrame& camera) const;
+
+ private:
+  const scene::WorldGeometry& geometry_;
+  geometry::TriangleHierarchy hierarchy_;
 };
 
 /// A GL context that renderers on this thread may share, one after the other. Worth making before the scene
@@ -162,7 +191,7 @@ class Renderer {
   /// core::Error("file.write").
   void saveReferenceImages();
 
-  /// What `auto` picks for a reflector.
+  /// What `auto` picks for a reflector by its shape; MethodChooser knows the view, too.
   [[nodiscard]] static MethodChoice chooseMethod(const scene::Reflector& reflector);
 
   /// "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 3.3 core, Mesa 22.3.6"; makes the context.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "catoptric/renderer/frame.h"
-#include "catoptric/virtual_object/analytic_finder.h"
 
 namespace catoptric::renderer {
 
@@ -87,29 +86,4 @@ std::string_view mergeName(Merge merge) {
   return "?";
 }
 
-namespace {
-
-MethodChoice chooseByShape(const scene::Reflector& reflector) {
-  if (reflector.isRefractor())
-    return {Method::Virtual,
-            Solver::Exact,
-            "light goes through: each pixel's refracted ray meets the real triangles",
-            {}};
-  if (reflector.shape == scene::ReflectorShape::Plane)
-    return {Method::Virtual, Solver::Auto, "flat: the scene is mirrored, exact at every pixel", {}};
-  if (reflector.isConvex)
-    return {Method::Virtual, Solver::Refined, "convex: one reflection point for every scene point", {}};
-  return {Method::Virtual,
-          Solver::Exact,
-          "not convex: a point may have several reflections, each pixel's ray meets the real triangles",
-          {}};
-}
-
-}  // namespace
-
-MethodChoice Renderer::chooseMethod(const scene::Reflector& reflector) {
-  MethodChoice choice = chooseByShape(reflector);
-  choice.analytic = virtual_object::findAnalyticObstacle(reflector);
-  return choice;
-}
 }  // namespace catoptric::renderer

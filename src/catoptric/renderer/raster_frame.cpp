@@ -21,6 +21,8 @@
 namespace catoptric::renderer {
 namespace {
 
+constexpr int kSmallMapTexels = 32;  // of a mirror that shows a scene within four pixels
+
 double millisecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
@@ -97,8 +99,8 @@ RasterFrame::RasterFrame(gl::Context& context, const scene::Scene& scene,
       scene_(scene, geometry, environment),
       chains_(geometry),
       primary_(surfaces_),
-      virtual_(virtual_object::Solver::Refined, hits_),
-      exact_(hits_) {
+      exact_(hits_),
+      virtual_(virtual_object::Solver::Refined, hits_, exact_) {
   if (geometry.reflectors.size() >= 0xffffu)
     throw core::Error("renderer.reflectors", "the scene has more than 65534 mirrors", {},
                       "use --reflector NAME to pick some");
@@ -154,6 +156,9 @@ raster::ReflectionMethod* RasterFrame::pickMethod(const raster::Chain& chain, co
   const bool isMorphing = options.method == Method::Morphing;
   if (isMorphing && chain.curved && isMapped(chain, options)) return &environment_;
   const bool isAuto = options.solver == Solver::Auto;
+  if (isAuto && !isMorphing && chain.level == 1 && chain.curved && chain.pixels < std::uint64_t(kFewPixels) &&
+      !hasMoved_)
+    return &smallMaps_;
   const bool needsExact =
       chain.curved && Renderer::chooseMethod(geometry_.reflectors[*chain.curved]).solver == Solver::Exact;
   // A vertex has a reflection point in one curved mirror; what two of them show is found by the pixels' rays.
@@ -195,6 +200,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
                                .maxErrorPx = options.maxErrorPx,
                                .merge = options.merge,
                                .textureScale = options.textureScale,
+                               .allParts = options.allParts,
                                .counters = counters};
 
   // 1
@@ -207,7 +213,6 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
 
   chains_.beginFrame();
   lastMethods_.clear();
-  hits_.beginFrame();
   for (raster::ReflectionMethod* method : methods_)
     if (method != &morphing_ || options.method == Method::Morphing) method->prepare(context);
   std::vector<raster::Chain> parents{raster::makeEyeChain()};
@@ -259,6 +264,8 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   frame.counters.simplifiedTriangles += counters.simplifiedTriangles;
   frame.counters.virtualTriangles += counters.virtualTriangles;
   frame.counters.fragmentTests += counters.fragmentTests;
+  frame.counters.virtualPixels += counters.virtualPixels;
+  frame.counters.boundedPixels += counters.boundedPixels;
   frame.timings.warpMs += counters.warpMs;
   frame.timings.captureMs += counters.captureMs;
   frame.counters.zexels += counters.zexels;
@@ -342,6 +349,7 @@ Frame RasterFrame::render(const scene::CameraFrame& camera, const FrameOptions& 
   zexel_.setOptions(options.zexel);
   if (options.method == Method::Zexel) prepareZexels(options);
   environment_.setOptions(options.environmentMapSize, options.boxCorrected);
+  smallMaps_.setOptions(kSmallMapTexels, true);
   frame.radiance = core::ImageRgbaF(options.widthPx, options.heightPx, vec4(0, 0, 0, 1));
   const raster::Level& level = *levels_[0];
   std::vector<vec4> pixels(samples == 1 ? 0 : frame.radiance.size());

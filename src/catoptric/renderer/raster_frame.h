@@ -69,9 +69,10 @@ class RasterFrame {
   raster::MirrorMask mask_;
   planar_mirror::PlanarMirrorMethod planar_;
   virtual_object::HitShading hits_;
-  virtual_object::VirtualObjectMethod virtual_;
   virtual_object::ExactMethod exact_;
+  virtual_object::VirtualObjectMethod virtual_;
   environment_map::EnvironmentMapMethod environment_;
+  environment_map::EnvironmentMapMethod smallMaps_;  ///< of mirrors of a few pixels
   reflection_morphing::ReflectionMorphingMethod morphing_;
   std::string
       morphingFile_;  ///< what morphing_ has its locations from; empty: from morphingPlan_, on the fly
@@ -80,8 +81,8 @@ class RasterFrame {
   std::string zexelFile_;  ///< that zexel_ was given
   bool hasMoved_ = false;
   /// All of them, in no order that matters.
-  std::array<raster::ReflectionMethod*, 6> methods_{&planar_, &virtual_,     &exact_,
-                                                    &zexel_,  &environment_, &morphing_};
+  std::array<raster::ReflectionMethod*, 7> methods_{&planar_,      &virtual_,   &exact_,   &zexel_,
+                                                    &environment_, &smallMaps_, &morphing_};
   double nearPlane_ = 0;  ///< of the last camera; 0 = not known
   scene::CameraFrame nearPlaneCamera_;
   std::vector<std::unique_ptr<raster::Level>> levels_;

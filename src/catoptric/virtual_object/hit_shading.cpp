@@ -87,19 +87,9 @@ void HitShading::prepare(const raster::SceneBuffers& scene, const raster::Level&
     triangles_ = std::make_unique<SceneTriangles>(scene);
   if (targets_ && targets_->widthPx == parent.widthPx && targets_->heightPx == parent.heightPx) return;
   targets_ = std::make_unique<Targets>(parent.widthPx, parent.heightPx);
-  raysOf_ = nullptr;
-}
-
-bool HitShading::drawRays(const raster::Level& parent) {
-  if (raysOf_ == &parent) return false;
-  drawRays(parent, {0, 0, parent.widthPx, parent.heightPx});
-  raysOf_ = &parent;
-  return true;
 }
 
 void HitShading::drawRays(const raster::Level& parent, const gl::Scissor& bounds) {
-  if (raysOf_ == &parent) return;
-  raysOf_ = nullptr;
   targets_->rays.bind();
   gl::setScissor(bounds);
   gl::setDrawState({.depthTest = false, .depthWrite = false});
@@ -109,14 +99,19 @@ void HitShading::drawRays(const raster::Level& parent, const gl::Scissor& bounds
   gl::drawScreen();
 }
 
-void HitShading::readRays(std::span<vec4> origins, std::span<vec4> directions) const {
-  targets_->rays.readPixels(0, origins);
-  targets_->rays.readPixels(1, directions);
+void HitShading::readRays(const gl::Scissor& bounds, std::span<vec4> origins,
+                          std::span<vec4> directions) const {
+  targets_->rays.readPixelsInPlace(0, bounds, origins);
+  targets_->rays.readPixelsInPlace(1, bounds, directions);
+}
+
+void HitShading::continueHits(const gl::Scissor& bounds) const {
+  targets_->hitTests.bind();
+  gl::setScissor(bounds);
 }
 
 void HitShading::beginHits(const gl::Scissor& bounds) const {
-  targets_->hitTests.bind();
-  gl::setScissor(bounds);
+  continueHits(bounds);
   targets_->hitTests.clearColor(0, uvec4(0u));
   targets_->hitTests.clearDepth();
 }

@@ -45,21 +45,21 @@ class HitShading {
   };
 
   HitShading();
-  void beginFrame() { raysOf_ = nullptr; }
   void partsMoved(const raster::SceneBuffers& scene, std::span<const std::uint32_t> parts) {
     if (triangles_) triangles_->update(scene, parts);
   }
   /// Makes targets of the parent's size and the scene's textures, when there are none.
   void prepare(const raster::SceneBuffers& scene, const raster::Level& parent);
 
-  /// Step 1 for all pixels of the level. True if they were drawn, false if they were there.
-  bool drawRays(const raster::Level& parent);
-  /// For some.
+  /// Step 1.
   void drawRays(const raster::Level& parent, const gl::Scissor& bounds);
-  void readRays(std::span<vec4> origins, std::span<vec4> directions) const;
+  /// Each pixel to where it would be if all of the level were read.
+  void readRays(const gl::Scissor& bounds, std::span<vec4> origins, std::span<vec4> directions) const;
 
   /// Binds the target of step 2, cut to `bounds` and cleared there.
   void beginHits(const gl::Scissor& bounds) const;
+  /// The same without clearing it.
+  void continueHits(const gl::Scissor& bounds) const;
   /// Triangle + 1 and bits of a length at each pixel of `bounds`, row by row.
   void readHits(const gl::Scissor& bounds, std::vector<uvec2>& hits) const;
   /// The rays, hits and triangles, for a program in use.
@@ -112,7 +112,6 @@ class HitShading {
   std::vector<CoverRect> mirrorRects_, otherRects_;
   std::unique_ptr<SceneTriangles> triangles_;
   std::unique_ptr<Targets> targets_;
-  const raster::Level* raysOf_ = nullptr;  ///< level whose rays are all drawn
   float depthFromDistance_ = 1;
 };
 

@@ -56,6 +56,7 @@ struct PictureView {
   mat4 clipFromDraw{1.0f};
   int widthPx = 0, heightPx = 0;
   bool windingFlipped = false;  ///< fronts turn clockwise
+  bool isEitherSide = false;    ///< winding says nothing of fronts
 };
 
 /// Clears `isKept` of triangles in which no pixel of `bounds` has its centre, and of those that turn their
@@ -73,10 +74,10 @@ class NumberedTriangles {
   [[nodiscard]] std::span<const std::uint32_t> indices() const { return mesh_.indices; }
 
   /// Step 2, into the bound target of hits, with the program of virtual_triangle.frag: the runs of `ranges`,
-  /// which lie in `triangles`.
+  /// which lie in `triangles`. `isEitherSide`: no matter how they turn.
   void draw(const raster::FrameContext& frame, const raster::SurfaceView& view, gl::Program& program,
             std::span<const vec3> virtualPositions, std::span<const std::uint32_t> triangles,
-            std::span<const raster::DrawRange> ranges);
+            std::span<const raster::DrawRange> ranges, bool isEitherSide = false);
 
  private:
   NumberedMesh mesh_;

@@ -216,18 +216,21 @@ void ReflectorMesh::addBody(std::span<const vec3> positions, std::span<const vec
   ordinaryCount_ = triangles_.size();
 }
 
-/// No triangle's neighbour rises above its plane, by more than what float positions and flat quads bring
-/// about.
-bool ReflectorMesh::findWhetherConvex() const {
-  for (std::size_t i = 0; i < ordinaryCount_; ++i) {
-    const MirrorTriangle& t = triangles_[i];
-    const dvec3 facet = glm::normalize(glm::cross(t.edge1, t.edge2));
-    for (const std::uint32_t link : t.neighbours) {
-      if (link == kNoNeighbour) continue;
-      const dvec3 opposite = positions_[corners_[3 * (link / 4) + (link % 4 + 2) % 3]] - t.position0;
-      if (glm::dot(facet, opposite) > kConvexTolerance * glm::length(opposite)) return false;
-    }
+/// No neighbour rises above its plane, by more than what float positions and flat quads bring about.
+bool ReflectorMesh::isConvexAt(std::size_t triangle) const {
+  const MirrorTriangle& t = triangles_[triangle];
+  const dvec3 facet = glm::normalize(glm::cross(t.edge1, t.edge2));
+  for (const std::uint32_t link : t.neighbours) {
+    if (link == kNoNeighbour || link / 4 >= ordinaryCount_) continue;
+    const dvec3 opposite = positions_[corners_[3 * (link / 4) + (link % 4 + 2) % 3]] - t.position0;
+    if (glm::dot(facet, opposite) > kConvexTolerance * glm::length(opposite)) return false;
   }
+  return true;
+}
+
+bool ReflectorMesh::findWhetherConvex() const {
+  for (std::size_t i = 0; i < ordinaryCount_; ++i)
+    if (!isConvexAt(i)) return false;
   return true;
 }
 

@@ -75,6 +75,8 @@ class ReflectorMesh {
   [[nodiscard]] bool isOpen() const { return ordinaryCount_ != triangles_.size() || boundaryEdges_ > 0; }
   /// Every edge bends outwards, to within rounding; skirt left out.
   [[nodiscard]] bool isConvex() const { return isConvex_; }
+  /// The edges of one ordinary triangle.
+  [[nodiscard]] bool isConvexAt(std::size_t triangle) const;
   [[nodiscard]] std::size_t boundaryEdges() const { return boundaryEdges_; }
   [[nodiscard]] dvec3 centre() const { return centre_; }           ///< of the bounding sphere, skirt included
   [[nodiscard]] double radius() const { return radius_; }          ///< tight, skirt included

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "catoptric/core/error.h"
+#include "catoptric/geometry/nearest_hit.h"
 
 namespace catoptric::virtual_object {
 namespace {
@@ -41,7 +42,7 @@ std::unique_ptr<gl::Texture> makeTable(gl::Format format, std::vector<Texel>& te
 
 std::uint32_t findCoverFlags(const raster::SceneBuffers& scene, std::uint32_t part) {
   const scene::Material& material = scene.material(scene.geometry().parts[part].material);
-  return (material.isSeenFromBehind() ? 0u : kCoverSingleSided) |
+  return (material.isSeenFromBehind() ? geometry::kTwoSided : kCoverSingleSided) |
          (material.alphaMode == scene::AlphaMode::Mask ? kCoverMasked : 0u) |
          (scene.isBlended(part) ? kCoverBlended : 0u);
 }

@@ -12,8 +12,9 @@
 
 namespace catoptric::virtual_object {
 
-/// geometry::HierarchyTriangle::flags of solver `exact`.
-enum CoverFlag : std::uint32_t { kCoverSingleSided = 1, kCoverMasked = 2, kCoverBlended = 4 };
+/// geometry::HierarchyTriangle::flags of solver `exact`; those that are not single-sided are
+/// geometry::kTwoSided.
+enum CoverFlag : std::uint32_t { kCoverMasked = 2, kCoverBlended = 4, kCoverSingleSided = 8 };
 
 /// Of the triangles of a part.
 [[nodiscard]] std::uint32_t findCoverFlags(const raster::SceneBuffers& scene, std::uint32_t part);

@@ -12,13 +12,24 @@
 
 namespace catoptric::virtual_object {
 
+namespace {
+
+/// What the parts of a mirror show is held against the scene's own triangles, pixel by pixel.
+raster::TessellationOptions withoutLevels(raster::TessellationOptions options) {
+  options.levels = nullptr;
+  return options;
+}
+
+}  // namespace
+
 VirtualObjectMethod::Prepared::Prepared(const scene::WorldGeometry& world, std::uint32_t reflector,
-                                        bool flipped, const raster::TessellationOptions& options)
+                                        bool flipped, const raster::TessellationOptions& options,
+                                        bool mayBeInParts)
     : maxErrorPx(options.maxErrorPx),
       sizePx(options.reflectorDiameterPx),
       isFromBehind(flipped),
       mesh(world, reflector, ReflectorMeshOptions{.flipped = flipped}),
-      tessellation(world, reflector, options),
+      tessellation(world, reflector, mayBeInParts && !mesh.isConvex() ? withoutLevels(options) : options),
       objects(tessellation.objects()),
       runs(objects, VirtualObjectSolver::kRunLength),
       pass(objects),
@@ -36,6 +47,7 @@ void VirtualObjectMethod::Prepared::update(const scene::WorldGeometry& world) {
   pass.objectsChanged();
   numbered.reset();
   gpu.reset();
+  if (inParts) inParts->judged.reset();
   virtualPositions.resize(objects.positions.size());
   reflectionPoints.resize(objects.positions.size());
   kinds.resize(objects.positions.size());
@@ -58,6 +70,12 @@ void VirtualObjectMethod::partsMoved(const scene::WorldGeometry& world,
 float VirtualObjectMethod::findLongestChord(const Prepared& p) {
   if (p.mesh.ordinaryCount() != p.mesh.triangles().size()) return std::numeric_limits<float>::infinity();
   return float(p.mesh.bodyRadius() * std::sqrt(16.0 / p.sizePx));
+}
+
+VirtualObjectMethod::InParts::InParts(const ReflectorMesh& mesh) : InParts(mesh, cutIntoParts(mesh)) {}
+
+VirtualObjectMethod::InParts::InParts(const ReflectorMesh& mesh, CutMirror cut) : buffers(mesh, cut) {
+  for (MirrorPart& part : cut.parts) parts.push_back({std::move(part), nullptr});
 }
 
 VirtualObjectMethod::Prepared& VirtualObjectMethod::prepareReflector(const raster::FrameContext& frame,
@@ -94,7 +112,7 @@ VirtualObjectMethod::Prepared& VirtualObjectMethod::prepareReflector(const raste
   for (std::uint32_t part = 0; part < world.parts.size(); ++part)
     isPlain.push_back((findCoverFlags(frame.scene, part) & (kCoverMasked | kCoverBlended)) == 0 ? 1 : 0);
   if (drawing == Drawing::Numbered) options.shadedByRays = isPlain;
-  slot = std::make_unique<Prepared>(world, *chain.curved, flipped, options);
+  slot = std::make_unique<Prepared>(world, *chain.curved, flipped, options, solver_ == Solver::Refined);
   for (const std::uint8_t isNumbered : isPlain) slot->isDrawn.push_back(isNumbered ? 0 : 1);
   slot->isNumbered = std::move(isPlain);
   return *slot;
@@ -155,15 +173,26 @@ void VirtualObjectMethod::computeVirtualVertices(raster::FrameContext& frame, co
   prepared.isFoundOnCpu = wanted.empty();
 }
 
-void VirtualObjectMethod::drawObjects(raster::FrameContext& frame, const raster::Chain& chain,
+bool VirtualObjectMethod::drawObjects(raster::FrameContext& frame, const raster::Chain& chain,
                                       const raster::Level& parent, raster::Level& target) {
   // 1
   const dvec3 drawEye = dvec3(glm::inverse(chain.screenFromDraw) * dvec4(frame.camera.eye, 1.0));
   Prepared& p = prepareReflector(frame, chain, drawEye);
-  if (p.objects.indices.empty()) return;
+  if (p.objects.indices.empty()) return false;
+  const raster::SurfaceView view = makeView(frame, chain, drawEye, parent);
+  p.eye = drawEye;
+  if (chain.level == 1) last_[chain.last] = &p;
+  if (isInParts(p, frame.scene.geometry())) {
+    p.isFoundOnCpu = false;
+    if (canUseNumbers(chain, frame.scene.geometry()) && !hasCutOuts(frame.scene))
+      drawInParts(frame, chain, view, parent, target, p);
+    else
+      exact_.render(frame, chain, parent, target);
+    return true;
+  }
   const auto start = std::chrono::steady_clock::now();
   prepareSolver(frame.scene.geometry(), drawEye, p);
-  if (!p.solver->canReflect()) return;
+  if (!p.solver->canReflect()) return false;
   const bool onGpu = usesGpu(p);
   if (!onGpu) {
     computeVirtualVertices(frame, chain, p);
@@ -171,9 +200,25 @@ void VirtualObjectMethod::drawObjects(raster::FrameContext& frame, const raster:
     frame.counters.virtualVerticesMs += spent.count();
   }
   frame.counters.simplifiedTriangles += p.objects.simplifiedTriangles;
-  if (chain.level == 1) last_[chain.last] = &p;
 
   // 2
+  if (onGpu) {
+    drawOnGpu(frame, chain, view, p, target);
+    return false;
+  }
+  if (findDrawing(chain, frame.scene.geometry()) == Drawing::Numbered) {
+    drawNumbered(frame, chain, view, p, target);
+    return false;
+  }
+  const bool isMirrored = chain.drawFromWorld != dmat4(1.0);
+  p.pass.draw(frame, view, p.virtualPositions, p.kinds, p.reflectionPoints,
+              isMirrored ? std::span<const vec3>(p.scenePoints) : std::span<const vec3>(), target);
+  return false;
+}
+
+raster::SurfaceView VirtualObjectMethod::makeView(const raster::FrameContext& frame,
+                                                  const raster::Chain& chain, const dvec3& drawEye,
+                                                  const raster::Level& parent) {
   raster::SurfaceView view;
   view.clipFromDraw =
       raster::makeClipFromWorld(frame.camera, frame.nearPlane, frame.jitterPx) * chain.screenFromDraw;
@@ -185,17 +230,7 @@ void VirtualObjectMethod::drawObjects(raster::FrameContext& frame, const raster:
   const auto& reflectors = frame.scene.geometry().reflectors;
   if (chain.last != *chain.curved)
     raster::clipAtLastMirror(reflectors[chain.last], chain.last, reflectors[*chain.curved].centre, view);
-  if (onGpu) {
-    drawOnGpu(frame, chain, view, p, target);
-    return;
-  }
-  if (findDrawing(chain, frame.scene.geometry()) == Drawing::Numbered) {
-    drawNumbered(frame, chain, view, p, target);
-    return;
-  }
-  const bool isMirrored = chain.drawFromWorld != dmat4(1.0);
-  p.pass.draw(frame, view, p.virtualPositions, p.kinds, p.reflectionPoints,
-              isMirrored ? std::span<const vec3>(p.scenePoints) : std::span<const vec3>(), target);
+  return view;
 }
 
 void VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, const raster::Chain& chain,
@@ -230,9 +265,9 @@ void VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, const raster
 
 void VirtualObjectMethod::render(raster::FrameContext& frame, const raster::Chain& chain,
                                  const raster::Level& parent, raster::Level& target) {
-  drawObjects(frame, chain, parent, target);
+  const bool isComplete = drawObjects(frame, chain, parent, target);
   // 3
-  background_.draw(frame.scene, chain, parent, target);
+  if (!isComplete) background_.draw(frame.scene, chain, parent, target);
 }
 
 }  // namespace catoptric::virtual_object

@@ -12,8 +12,12 @@
 #include "catoptric/raster/reflection_method.h"
 #include "catoptric/raster/tessellation.h"
 #include "catoptric/raster/virtual_object_pass.h"
+#include "catoptric/virtual_object/exact/exact_method.h"
 #include "catoptric/virtual_object/layered_finder.h"
 #include "catoptric/virtual_object/mirror_textures.h"
+#include "catoptric/virtual_object/mixed/part_image.h"
+#include "catoptric/virtual_object/mixed/part_pixels.h"
+#include "catoptric/virtual_object/mixed/view_forecast.h"
 #include "catoptric/virtual_object/numbered_triangles.h"
 #include "catoptric/virtual_object/reflector_mesh.h"
 #include "catoptric/virtual_object/virtual_object_solver.h"
@@ -22,8 +26,9 @@ namespace catoptric::virtual_object {
 
 class VirtualObjectMethod : public raster::ReflectionMethod {
  public:
-  /// `shading` must outlive the method.
-  VirtualObjectMethod(Solver solver, HitShading& shading) : solver_(solver), shading_(shading) {}
+  /// `exact` draws what virtual objects cannot; it and `shading` must outlive the method.
+  VirtualObjectMethod(Solver solver, HitShading& shading, ExactMethod& exact)
+      : solver_(solver), shading_(shading), exact_(exact) {}
   [[nodiscard]] std::string_view name() const override { return "virtual"; }
   [[nodiscard]] bool supports(const raster::Chain& chain) const override {
     return chain.curved.has_value() && !chain.hasSecondCurved && !chain.hasRefractor();
@@ -65,10 +70,32 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     std::vector<std::uint8_t> blendedRuns;  ///< by run: holds a vertex of a blended part
     bool hasBlended = false;
   };
+  /// What is kept for a mirror that is not convex.
+  struct InParts {
+    explicit InParts(const ReflectorMesh& mesh);
+    struct Part {
+      MirrorPart shape;
+      std::unique_ptr<VirtualObjectSolver> solver;  ///< made when first seen
+      bool isWorthIt = false;                       ///< a virtual object, for the last eye
+    };
+    std::vector<Part> parts;
+    PartBuffers buffers;
+    /// For what parts were judged.
+    struct Judged {
+      dvec3 eye{0};
+      double pixelsPerTangent = 0;
+      bool all = false;
+      bool operator==(const Judged&) const = default;
+    };
+    std::optional<Judged> judged;
+
+   private:
+    InParts(const ReflectorMesh& mesh, CutMirror cut);
+  };
   /// Everything kept for one curved reflector from frame to frame.
   struct Prepared {
     Prepared(const scene::WorldGeometry& world, std::uint32_t reflector, bool flipped,
-             const raster::TessellationOptions& options);
+             const raster::TessellationOptions& options, bool mayBeInParts);
     /// After partsMoved(): what follows from the objects.
     void update(const scene::WorldGeometry& world);
     double maxErrorPx, sizePx;  ///< of its TessellationOptions
@@ -90,14 +117,19 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     LanePlaces places;                     ///< of the last frame, where the next one begins
     std::vector<std::uint8_t> mayReflect;  ///< by run
     std::unique_ptr<OnGpu> gpu;            ///< made when first needed
+    std::unique_ptr<InParts> inParts;      ///< likewise
+    dvec3 eye{0};                          ///< of the last frame
     bool isFoundOnCpu = false;             ///< the arrays above are those of the solver's eye
   };
   static void addTessellation(const scene::WorldGeometry& world, const Prepared& p, raster::Marks& marks);
   static void addCells(const Prepared& p, double rayLength, raster::Marks& marks);
   static void addPath(const Prepared& p, const dvec3& point, raster::Marks& marks);
   [[nodiscard]] static float findLongestChord(const Prepared& prepared);
-  void drawObjects(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
+  /// True where the environment is there, too.
+  bool drawObjects(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
                    raster::Level& target);
+  static raster::SurfaceView makeView(const raster::FrameContext& frame, const raster::Chain& chain,
+                                      const dvec3& drawEye, const raster::Level& parent);
   Prepared& prepareReflector(const raster::FrameContext& frame, const raster::Chain& chain,
                              const dvec3& drawEye);
   /// Makes the solver, or gives it the eye.
@@ -111,12 +143,14 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
                                    Prepared& prepared) const;
 
   /// Numbers are not for flat mirrors behind the curved one, which cut triangles, nor for a scene too large
-  /// for textures, nor for a vertex shader.
+  /// for textures.
+  [[nodiscard]] bool canUseNumbers(const raster::Chain& chain, const scene::WorldGeometry& world) const {
+    return solver_ == Solver::Refined && chain.last == *chain.curved && SceneTriangles::fits(world);
+  }
+  /// Nor are they for a vertex shader.
   [[nodiscard]] Drawing findDrawing(const raster::Chain& chain, const scene::WorldGeometry& world) const {
     if (solver_ == Solver::Explosion) return Drawing::AsPublished;
-    const bool isNumbered =
-        solver_ == Solver::Refined && !onGpu_ && chain.last == *chain.curved && SceneTriangles::fits(world);
-    return isNumbered ? Drawing::Numbered : Drawing::Interpolated;
+    return !onGpu_ && canUseNumbers(chain, world) ? Drawing::Numbered : Drawing::Interpolated;
   }
   /// What a vertex shader has found, once more where the processor can read it.
   void completeOnCpu(const scene::WorldGeometry& world, std::uint32_t reflector, Prepared& prepared) const;
@@ -130,10 +164,34 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   void drawNumbered(raster::FrameContext& frame, const raster::Chain& chain, const raster::SurfaceView& view,
                     Prepared& prepared, raster::Level& target);
 
+  /// Is the mirror drawn part by part? A scene too large for textures is drawn as if it were convex.
+  [[nodiscard]] bool isInParts(const Prepared& prepared, const scene::WorldGeometry& world) const {
+    return solver_ == Solver::Refined && !prepared.mesh.isConvex() && SceneTriangles::fits(world);
+  }
+  /// Are there surfaces that numbers do not serve?
+  static bool hasCutOuts(const raster::SceneBuffers& scene);
+  /// Draws what the mirror shows, environment and all.
+  void drawInParts(raster::FrameContext& frame, const raster::Chain& chain, const raster::SurfaceView& view,
+                   const raster::Level& parent, raster::Level& target, Prepared& prepared);
+  bool forecastParts(const raster::FrameContext& frame, const raster::Chain& chain, const dvec3& drawEye,
+                     Prepared& prepared);
+  void drawPartNumbers(raster::FrameContext& frame, const raster::Chain& chain,
+                       const raster::SurfaceView& view, Prepared& prepared);
+  void findPartVertices(raster::FrameContext& frame, const dvec3& drawEye, InParts::Part& part,
+                        Prepared& prepared) const;
+  void markPartTriangles(const scene::WorldGeometry& world, const Prepared& prepared);
+  void drawPart(raster::FrameContext& frame, const raster::SurfaceView& view, const gl::Scissor& bounds,
+                std::uint32_t number, InParts::Part& part, Prepared& prepared);
+
   Solver solver_;
   bool onGpu_ = false;
   std::map<Solver, std::unique_ptr<raster::SurfacePass>> gpuSurfaces_;  ///< by solver, made when first needed
   HitShading& shading_;
+  ExactMethod& exact_;
+  std::unique_ptr<PartImage> partImage_;            ///< made when first needed
+  std::unique_ptr<gl::Program> partNumberProgram_;  ///< likewise
+  std::vector<uvec2> partNumbers_;
+  std::vector<std::uint8_t> isDone_;
   gl::Program numberProgram_{"virtual_object/virtual_triangle.vert", "virtual_object/virtual_triangle.frag"};
   raster::VirtualTriangles triangles_;
   std::vector<raster::DrawRange> ranges_;

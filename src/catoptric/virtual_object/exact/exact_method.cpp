@@ -33,18 +33,15 @@ void ExactMethod::prepareScene(const raster::FrameContext& frame) {
   tiles_.emplace(*hierarchy_);
 }
 
-void ExactMethod::readRays(const raster::Level& parent) {
-  shading_.drawRays(parent);
-  if (raysOf_ == &parent) return;
-  raysOf_ = &parent;
+void ExactMethod::readRays(const raster::Level& parent, const gl::Scissor& bounds) {
+  shading_.drawRays(parent, bounds);
   rays_.widthPx = parent.widthPx;
   rays_.heightPx = parent.heightPx;
   const std::size_t count = std::size_t(parent.widthPx) * std::size_t(parent.heightPx);
   rays_.origins.resize(count);
   rays_.directions.resize(count);
   rays_.words.resize(count);
-  shading_.readRays(rays_.origins, rays_.directions);
-  parent.surfaces.readPixels(3, std::span<uvec2>(rays_.words));
+  shading_.readRays(bounds, rays_.origins, rays_.directions);
 }
 
 bool ExactMethod::showsBack(const scene::WorldGeometry& world, const scene::Part& part,
@@ -88,8 +85,9 @@ CoverQuery ExactMethod::makeQuery(const raster::FrameContext& frame, const raste
 }
 
 void ExactMethod::drawHits(raster::FrameContext& frame, const raster::Chain& chain,
-                           const raster::Level& parent, const CoverQuery& query) {
+                           const raster::Level& parent, const CoverQuery& query, PartImage* image) {
   shading_.beginHits(chain.bounds);
+  if (image) image->closeDone(chain.bounds);
   gl::setDrawState({.depthTest = true, .depthWrite = true});
   hitProgram_.use();
   shading_.bindInputs(hitProgram_, parent, chain);
@@ -131,23 +129,56 @@ void ExactMethod::drawBlended(raster::FrameContext& frame, const raster::Chain& 
   shading_.drawParts(frame, chain, parent, HitShading::Pass::Blend, cover_.blended);
 }
 
-void ExactMethod::render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
-                         raster::Level& target) {
-  // 1
+const RayImages& ExactMethod::findRays(const raster::FrameContext& frame, const raster::Chain& chain,
+                                       const raster::Level& parent) {
   prepareScene(frame);
   shading_.prepare(frame.scene, parent);
-  readRays(parent);
-  // 2
+  readRays(parent, chain.bounds);
+  const auto width = std::size_t(parent.widthPx);
+  for (int y = chain.bounds.y; y < chain.bounds.y + chain.bounds.height; ++y)
+    std::copy_n(
+        frame.parentIds.begin() + std::ptrdiff_t(std::size_t(y) * width + std::size_t(chain.bounds.x)),
+        chain.bounds.width,
+        rays_.words.begin() + std::ptrdiff_t(std::size_t(y) * width + std::size_t(chain.bounds.x)));
+  return rays_;
+}
+
+void ExactMethod::findCover(raster::FrameContext& frame, const CoverQuery& query) {
   const auto start = std::chrono::steady_clock::now();
-  const CoverQuery query = makeQuery(frame, chain);
   shading_.setReach(query.reach);
   tiles_->compute(rays_, query, cover_);
   const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
   frame.counters.virtualVerticesMs += spent.count();
   frame.counters.virtualTriangles += cover_.opaque.size() + cover_.masked.size() + cover_.blended.size();
   frame.counters.fragmentTests += cover_.offeredPixels;
+}
+
+void ExactMethod::renderRest(raster::FrameContext& frame, const raster::Chain& chain,
+                             const raster::Level& parent, raster::Level& target,
+                             std::span<const std::uint8_t> isDone, PartImage& image) {
+  const CoverQuery query = makeQuery(frame, chain);
+  for (std::size_t i = 0; i < isDone.size(); ++i)  // no other chain has these pixels
+    if (isDone[i] != 0)
+      rays_
+          .words[std::size_t(chain.bounds.y + int(i) / chain.bounds.width) * std::size_t(rays_.widthPx) +
+                 std::size_t(chain.bounds.x + int(i) % chain.bounds.width)]
+          .y = 0;
+  findCover(frame, query);
+  drawHits(frame, chain, parent, query, &image);
+  shadeHits(frame, chain, parent, target);
+  background_.draw(frame.scene, chain, parent, target);
+  drawBlended(frame, chain, parent, target);
+}
+
+void ExactMethod::render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
+                         raster::Level& target) {
+  // 1
+  static_cast<void>(findRays(frame, chain, parent));
+  // 2
+  const CoverQuery query = makeQuery(frame, chain);
+  findCover(frame, query);
   // 3
-  drawHits(frame, chain, parent, query);
+  drawHits(frame, chain, parent, query, nullptr);
   // 4
   shadeHits(frame, chain, parent, target);
   // 5

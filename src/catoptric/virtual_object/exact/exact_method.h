@@ -32,6 +32,7 @@
 #include "catoptric/raster/reflection_method.h"
 #include "catoptric/virtual_object/exact/tile_cover.h"
 #include "catoptric/virtual_object/hit_shading.h"
+#include "catoptric/virtual_object/mixed/part_image.h"
 
 namespace catoptric::virtual_object {
 
@@ -41,7 +42,7 @@ class ExactMethod : public raster::ReflectionMethod {
   explicit ExactMethod(HitShading& shading);
   [[nodiscard]] std::string_view name() const override { return "virtual"; }
   [[nodiscard]] bool supports(const raster::Chain& chain) const override { return chain.curved.has_value(); }
-  void prepare(raster::FrameContext&) override { raysOf_ = nullptr; }
+  void prepare(raster::FrameContext&) override {}
   void geometryChanged() override {
     tiles_.reset();
     hierarchy_.reset();
@@ -49,18 +50,33 @@ class ExactMethod : public raster::ReflectionMethod {
   void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
               raster::Level& target) override;
 
+  /// Of the scene's triangles, kept until they move.
+  [[nodiscard]] const TriangleHierarchy& findHierarchy(const raster::FrameContext& frame) {
+    prepareScene(frame);
+    return *hierarchy_;
+  }
+  /// The rays of a mirror's pixels; the images are the level's, and hold nothing outside of chain.bounds.
+  [[nodiscard]] const RayImages& findRays(const raster::FrameContext& frame, const raster::Chain& chain,
+                                          const raster::Level& parent);
+  /// As render(), at pixels of chain.bounds that have a 0 in `isDone` (row by row) only, which `image` was
+  /// told, too.
+  void renderRest(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
+                  raster::Level& target, std::span<const std::uint8_t> isDone, PartImage& image);
+
   /// What was offered by the last render(), and the rays it was offered to; for tests of conservativeness.
   [[nodiscard]] const Cover& cover() const { return cover_; }
   [[nodiscard]] const RayImages& rays() const { return rays_; }
 
  private:
   void prepareScene(const raster::FrameContext& frame);
-  void readRays(const raster::Level& parent);
+  void readRays(const raster::Level& parent, const gl::Scissor& bounds);
   [[nodiscard]] CoverQuery makeQuery(const raster::FrameContext& frame, const raster::Chain& chain) const;
   [[nodiscard]] bool showsBack(const scene::WorldGeometry& world, const scene::Part& part,
                                const CoverQuery& query) const;
+  void findCover(raster::FrameContext& frame, const CoverQuery& query);
+  /// `image`: closes the pixels that are done; may be null.
   void drawHits(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
-                const CoverQuery& query);
+                const CoverQuery& query, PartImage* image);
   void shadeHits(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
                  const raster::Level& target);
   void drawBlended(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
@@ -71,7 +87,6 @@ class ExactMethod : public raster::ReflectionMethod {
   gl::Program hitProgram_;
   std::unique_ptr<TriangleHierarchy> hierarchy_;
   std::optional<TileCover> tiles_;
-  const raster::Level* raysOf_ = nullptr;  ///< level whose rays were read
   RayImages rays_;
   Cover cover_;
 };
