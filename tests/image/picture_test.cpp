@@ -177,7 +177,7 @@ TEST(Picture, virtualObjectsInParts) {
   subject.allParts = true;
   expectWithin(
       subject, withTurnedNormals(subject.world, 0.005),
-      {12, 0.2, "thin poles and the frame at the mirror's edge, a tenth of a pixel beside their place"});
+      {22, 0.2, "thin poles and the frame at the mirror's edge, a tenth of a pixel beside their place"});
 }
 
 TEST(Picture, refraction) {

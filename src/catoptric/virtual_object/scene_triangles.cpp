@@ -88,7 +88,7 @@ void SceneTriangles::writeTriangles(const raster::SceneBuffers& scene) {
   const scene::WorldGeometry& world = scene.geometry();
   std::vector<std::uint32_t> flags;
   for (std::uint32_t part = 0; part < world.parts.size(); ++part)
-    flags.push_back(part * 4u + (findCoverFlags(scene, part) & kCoverSingleSided));
+    flags.push_back(part * 4u + ((findCoverFlags(scene, part) & kCoverSingleSided) != 0 ? 1u : 0u));
   triangleTexels_.clear();
   const auto add = [&](std::span<const std::uint32_t> corners, std::span<const std::uint32_t> parts) {
     for (std::size_t i = 0; i < parts.size(); ++i)

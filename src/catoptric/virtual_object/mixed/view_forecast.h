@@ -61,8 +61,8 @@ struct SceneRays {
                                                      const SceneRays& scene, const dvec3& eye,
                                                      double pixelsPerTangent);
 
-/// Expected costs, ms on the machine of the README, and what is cheaper for a part. Figures are means over
-/// the built-in scenes; scripts/solver_costs.py prints them.
+/// Expected costs, ms on the machine of the README, and what is cheaper for a part. Fitted by hand to
+/// `bench --methods virtual-refined,virtual-exact` on the built-in scenes; of use to compare, not to predict.
 struct PartCosts {
   double virtualMs = 0, boundMs = 0;
 };
