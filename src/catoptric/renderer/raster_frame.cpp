@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <future>
 #include <limits>
 
 #include "catoptric/core/error.h"
@@ -181,6 +182,16 @@ void RasterFrame::renderMirror(raster::ReflectionMethod& method, raster::FrameCo
   mask_.end(chain, parent, target);
 }
 
+bool RasterFrame::needsLevelsOfDetail(const FrameOptions& options) const {
+  const bool isVirtual = options.method == Method::Auto || options.method == Method::Virtual;
+  return isVirtual && options.solver != Solver::Exact && options.solver != Solver::Explosion &&
+         scene_.levelsSoFar() == nullptr &&
+         std::any_of(geometry_.reflectors.begin(), geometry_.reflectors.end(),
+                     [](const scene::Reflector& reflector) {
+                       return reflector.isConvex && !reflector.isPlanarMirror() && !reflector.isRefractor();
+                     });
+}
+
 void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOptions& options,
                                const dvec2& jitterPx, Frame& frame) {
   const auto start = std::chrono::steady_clock::now();
@@ -207,8 +218,12 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   levels_[0]->withSeen = options.withSeen || options.drawsSeen;
   levels_[0]->composesSeen = options.withSeen;
   levels_[0]->isLast = mostLevels == 0;
+  std::future<void> levelsOfDetail;  // made while GL compiles and draws, once a scene
+  if (mostLevels > 0 && needsLevelsOfDetail(options))
+    levelsOfDetail = std::async(std::launch::async, [this] { static_cast<void>(scene_.levels()); });
   primary_.draw(scene_, camera, context.nearPlane, jitterPx, *levels_[0]);
   context_.finish();
+  if (levelsOfDetail.valid()) levelsOfDetail.get();
   frame.timings.primaryMs += millisecondsSince(start);
 
   chains_.beginFrame();

@@ -39,6 +39,8 @@ class RasterFrame {
 
  private:
   void prepareLevels(int count, const FrameOptions& options);
+  /// Does the frame ask for scene_.levels(), which are not there yet?
+  [[nodiscard]] bool needsLevelsOfDetail(const FrameOptions& options) const;
   void renderSample(const scene::CameraFrame& camera, const FrameOptions& options, const dvec2& jitterPx,
                     Frame& frame);
   /// What one mirror shows, kept within its pixels.
