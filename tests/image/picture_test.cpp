@@ -187,6 +187,25 @@ TEST(Picture, refraction) {
       {24, 0.25, "solver exact: rounding, and rims, where the whole room is squeezed into one pixel"});
 }
 
+/// A mirror that the eye sees a few pixels of: an environment map by `auto`, as long as nothing moves.
+TEST(Picture, mirrorsOfAFewPixels) {
+  BallAndMirror b;
+  b.t.camera.eye = {6, 5, 90};
+  b.t.camera.target = {-0.5, 0.6, 0.4};
+  renderer::Renderer renderer(b.t.scene, b.t.world, sky());
+  const renderer::FrameOptions options{.widthPx = 128, .heightPx = 128};
+  const auto drawsVirtualObjects = [&] {
+    const renderer::Frame frame = renderer.render(b.t.camera, options);
+    return frame.counters.virtualVertices + frame.counters.fragmentTests > 0;
+  };
+  EXPECT_FALSE(drawsVirtualObjects());
+  b.t.camera.eye = {2, 1.7, 12};
+  EXPECT_TRUE(drawsVirtualObjects());  // near enough
+  b.t.camera.eye = {6, 5, 90};
+  renderer.updateGeometry({});
+  EXPECT_TRUE(drawsVirtualObjects());  // a map would have to be made anew in every frame
+}
+
 /// Glass in a room of mirrors: at the limit of bounces a mirror is followed nowhere and shows the
 /// environment, directly, behind glass and beside it.
 TEST(Picture, mirrorsThatNothingFollowsBesideGlass) {
