@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """virtual_object_scaling.py CATOPTRIC [-o PLOT.svg] [--repeat N]: what reflections by virtual objects (solver refined) cost.
 
-Three sweeps, each with a slope fitted to logarithms: against reflected vertices (--max-error), against reflectors (32 chrome
-balls, of which so many are mirrors), against pixels. Printed as tables, drawn side by side. Times are the reflection part of
+Three sweeps, each with a slope fitted to logarithms: against reflected vertices (more mirrors, then finer --max-error), against
+reflectors (32 chrome balls, of which so many are mirrors), against pixels. Printed as tables, drawn side by side. Times are the reflection part of
 a frame, but for vertices, where they are those of finding virtual vertices; all as `bench` measures them."""
 import argparse
 import json
@@ -14,7 +14,7 @@ import tempfile
 
 from zexel_scaling import Glb
 
-ERRORS = (1e6, 30, 8, 2, 0.5, 0.2, 0.08, 0.03)
+MIRRORS_AND_ERRORS = ((1, 64), (1, 8), (2, 8), (4, 8), (8, 8), (16, 8), (32, 8), (32, 2), (32, 0.5), (32, 0.2))
 SIZES = ("512x512", "960x720", "1280x960", "1920x1080", "2560x1440", "3840x2160")
 COUNTS = (1, 2, 4, 8, 16, 32)
 
@@ -85,20 +85,22 @@ def main():
     arguments.add_argument("--repeat", type=int, default=5)
     given = arguments.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        vertices = []
-        for error in ERRORS:
-            row = bench(given.catoptric, folder, "cylinder", given.repeat, "--max-error", str(error))
-            vertices.append((row["virtual_vertices"], 1000 * row["virtual_vertices"] / row["virtual_vertices_per_s"]))
         balls = write_balls(given.catoptric, folder)
-        reflectors = []
-        for count in COUNTS:
+
+        def bench_balls(count, *options):
             named = [word for i in range(count) for word in ("--reflector", f"mirror {i + 1}")]
-            reflectors.append((count, bench(given.catoptric, folder, balls, given.repeat, *named)["reflection_ms"]))
+            return bench(given.catoptric, folder, balls, given.repeat, *named, *options)
+
+        vertices = []
+        for count, error in MIRRORS_AND_ERRORS:
+            row = bench_balls(count, "--max-error", str(error))
+            vertices.append((row["virtual_vertices"], 1000 * row["virtual_vertices"] / row["virtual_vertices_per_s"]))
+        reflectors = [(count, bench_balls(count)["reflection_ms"]) for count in COUNTS]
         pixels = []
         for size in SIZES:
             x, y = map(int, size.split("x"))
             pixels.append((x * y, bench(given.catoptric, folder, "four-spheres", given.repeat, "--size", size)["reflection_ms"]))
-    sweeps = (("cylinder, virtual vertices, ms", "vertices", vertices), ("32 balls, reflections, ms", "reflectors", reflectors),
+    sweeps = (("up to 32 balls, virtual vertices, ms", "vertices", vertices), ("32 balls, reflections, ms", "reflectors", reflectors),
               ("four-spheres, reflections, ms", "pixels", pixels))
     parts = ['<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 960 290" width="960" height="290" '
              'style="font-family:sans-serif;font-size:12px"><rect width="960" height="290" fill="#fff"/>']
