@@ -128,7 +128,8 @@ TEST(PartPixels, holdEachRayAgainstItsTriangle) {
   world.indices = {0, 1, 2, 3, 4, 5};
   RayImages rays{.widthPx = 10, .heightPx = 10};
   for (int i = 0; i < 100; ++i) {
-    rays.origins.emplace_back(0.01f * float(i % 10), 0.01f * float(i / 10), 0, 0);
+    const int column = i % 10, row = i / 10;
+    rays.origins.emplace_back(0.01f * float(column), 0.01f * float(row), 0, 0);
     rays.directions.emplace_back(0, 0, 1, 0);
     rays.words.emplace_back(0, i % 10 == 0 ? 1 : 2);
   }
