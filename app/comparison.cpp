@@ -138,7 +138,8 @@ void timeSizes(renderer::Renderer& renderer, const scene::Camera& camera, const 
 }  // namespace
 
 std::size_t countSteps(const ComparisonOptions& options) {
-  return (options.variants.size() + 1) * std::size_t(options.repeats + 1) * (options.sizes.size() + 1);
+  const std::size_t timed = std::size_t(options.repeats + 1) * (options.sizes.size() + 1);
+  return (options.variants.size() + 1) * (1 + timed);
 }
 
 Comparison compareView(const LoadedScene& loaded, renderer::Renderer& renderer, const scene::Camera& camera,
@@ -162,6 +163,8 @@ Comparison compareView(const LoadedScene& loaded, renderer::Renderer& renderer, 
   std::vector<MethodVariant> variants = options.variants;
   variants.push_back(truthVariant());
   progress.describe(loaded.name + ": timing");
+  // Warm-up: frames that are not read back as far use programs of their own.
+  static_cast<void>(timeInTurn(renderer, camera, options.frame, variants, 1, progress));
   const auto times = timeInTurn(renderer, camera, options.frame, variants, options.repeats, progress);
   for (std::size_t i = 0; i < times.size(); ++i) comparison.rows[i].times = times[i];
   timeSizes(renderer, camera, options, variants, progress, comparison);

@@ -3,8 +3,7 @@
 //
 // In:  a mesh, in any units, with the attributes that its material looks at.
 // Out: lists of triangles over the same vertices, each about a third as long as the one before, and by how
-// much
-//      each of them misses the mesh.
+//      much each of them misses the mesh.
 // Steps:
 //   1. Vertices that agree in all that matters count as one.
 //   2. Borders, and seams of normals or texture coordinates, keep all their vertices: meshes that meet there

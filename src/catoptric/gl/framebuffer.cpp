@@ -69,15 +69,11 @@ void Framebuffer::clearStencil() const {
 }
 
 void Framebuffer::readPixels(int attachment, std::span<vec4> out) const {
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
-  glReadBuffer(GL_COLOR_ATTACHMENT0 + unsigned(attachment));
-  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, out.data());
+  readPixels(attachment, {0, 0, width_, height_}, out);
 }
 
 void Framebuffer::readPixels(int attachment, std::span<uvec2> out) const {
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
-  glReadBuffer(GL_COLOR_ATTACHMENT0 + unsigned(attachment));
-  glReadPixels(0, 0, width_, height_, GL_RG_INTEGER, GL_UNSIGNED_INT, out.data());
+  readPixels(attachment, {0, 0, width_, height_}, out);
 }
 
 void Framebuffer::readPixels(int attachment, const Scissor& pixels, std::span<uvec2> out) const {
@@ -86,21 +82,22 @@ void Framebuffer::readPixels(int attachment, const Scissor& pixels, std::span<uv
   glReadPixels(pixels.x, pixels.y, pixels.width, pixels.height, GL_RG_INTEGER, GL_UNSIGNED_INT, out.data());
 }
 
-void Framebuffer::readPixelsInPlace(int attachment, const Scissor& pixels, std::span<uvec2> out) const {
+void Framebuffer::readPixels(int attachment, const Scissor& pixels, std::span<vec4> out) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
+  glReadBuffer(GL_COLOR_ATTACHMENT0 + unsigned(attachment));
+  glReadPixels(pixels.x, pixels.y, pixels.width, pixels.height, GL_RGBA, GL_FLOAT, out.data());
+}
+
+template <class Pixel>
+void Framebuffer::readPixelsInPlace(int attachment, const Scissor& pixels, std::span<Pixel> out) const {
   glPixelStorei(GL_PACK_ROW_LENGTH, width_);
   const std::size_t first = std::size_t(pixels.y) * std::size_t(width_) + std::size_t(pixels.x);
   readPixels(attachment, pixels, out.subspan(first));
   glPixelStorei(GL_PACK_ROW_LENGTH, 0);
 }
 
-void Framebuffer::readPixelsInPlace(int attachment, const Scissor& pixels, std::span<vec4> out) const {
-  glPixelStorei(GL_PACK_ROW_LENGTH, width_);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
-  glReadBuffer(GL_COLOR_ATTACHMENT0 + unsigned(attachment));
-  const std::size_t first = std::size_t(pixels.y) * std::size_t(width_) + std::size_t(pixels.x);
-  glReadPixels(pixels.x, pixels.y, pixels.width, pixels.height, GL_RGBA, GL_FLOAT, out.subspan(first).data());
-  glPixelStorei(GL_PACK_ROW_LENGTH, 0);
-}
+template void Framebuffer::readPixelsInPlace(int, const Scissor&, std::span<uvec2>) const;
+template void Framebuffer::readPixelsInPlace(int, const Scissor&, std::span<vec4>) const;
 
 void Framebuffer::copyToCubeFace(int attachment, const Texture& cube, int face) const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);

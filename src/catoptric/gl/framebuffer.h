@@ -36,10 +36,12 @@ class Framebuffer {
   void readPixels(int attachment, std::span<uvec2> out) const;
 
   /// The same for some pixels, row by row.
+  void readPixels(int attachment, const Scissor& pixels, std::span<vec4> out) const;
   void readPixels(int attachment, const Scissor& pixels, std::span<uvec2> out) const;
   /// The same, each pixel to where it would be if all were read; others are left as they are.
-  void readPixelsInPlace(int attachment, const Scissor& pixels, std::span<uvec2> out) const;
-  void readPixelsInPlace(int attachment, const Scissor& pixels, std::span<vec4> out) const;
+  /// Pixel: vec4 or uvec2.
+  template <class Pixel>
+  void readPixelsInPlace(int attachment, const Scissor& pixels, std::span<Pixel> out) const;
 
   /// Copies a colour attachment into level 0 of a face of a cube texture of the same size and format.
   void copyToCubeFace(int attachment, const Texture& cube, int face) const;

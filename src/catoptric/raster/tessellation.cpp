@@ -2,8 +2,8 @@
 // Cuts what a reflector may reflect.
 //
 //   1. A few samples of the reflector's surface, farthest first; d of a point is the distance to the nearest
-//   sample
-//      less the radius that a sample stands for. Focal length c from the median curvature of the normals.
+//      sample less the radius that a sample stands for. Focal length c from the median curvature of the
+//      normals.
 //   2. k from the error bound in pixels. An edge of angular length phi (seen from the mirror) that is drawn
 //      straight misses its image by the sag of that image, about phi^2 / 8 times its radius of curvature on
 //      the screen, and by as much again along itself, because depth in the virtual object is path length and
@@ -18,10 +18,10 @@
 //      depth and interpolation add nothing, edges are therefore split at k (d + kByRays c), if the
 //      mirror is as large as kByRays c.
 //   3. Before a part is cut: one that is nowhere nearer than d is seen, in a mirror of focal length c, c / (d
-//   + c) times
-//      as large as on the mirror's surface. The coarsest level of detail is taken whose error is then at most
-//      kLevelShare of the bound. Where the part is a mirror, a turn of its normals by an angle counts as that
-//      angle times its radius; elsewhere it may be kLargestTurn, which shading does not show.
+//   +
+//      c) times as large as on the mirror's surface. The coarsest level of detail is taken whose error is
+//      then at most kLevelShare of the bound. Where the part is a mirror, a turn of its normals by an angle
+//      counts as that angle times its radius; elsewhere it may be kLargestTurn, which shading does not show.
 //   4. Every triangle by itself: mark edges with L > k (d + c), d = (d_a + d_b - L) / 2, the least that the
 //      edge's points can be away from the reflector; split in two, three or four; repeat on the pieces. New
 //      vertices are shared within a part through a table of edges.
@@ -140,7 +140,6 @@ const DetailLevel* ReflectorTessellation::findLevel(const scene::WorldGeometry& 
   const double bound = kLevelShare * options_.maxErrorPx * (d + c) / (c * pixelsPerUnit_);
   const scene::Reflector* mirror =
       part.reflector == core::kNoId ? nullptr : &geometry.reflectors[part.reflector];
-  if (mirror && (!mirror->isConvex || mirror->doubleSided || mirror->isRefractor())) return nullptr;
   const double largestTurn = mirror ? bound / mirror->radius : kLargestTurn;
   const DetailLevel* chosen = nullptr;
   for (const DetailLevel& level : levels)

@@ -3,12 +3,11 @@
 //
 //   1. Flat: mirrored, exact at every pixel. A refractor: solver exact, the only one that knows Snell's law.
 //   2. A mirror of a few pixels: an environment map, where nothing moves. No error there is wider than the
-//   mirror.
+//      mirror.
 //   3. Convex: refined. One reflection point for every scene point, so that the error is the tessellation's,
-//   which
-//      --max-error bounds.
+//      which --max-error bounds.
 //   4. Else: exact. The forecast (view_forecast.h) says how much of the mirror virtual objects would show
-//   right.
+//      right.
 #include <fmt/format.h>
 
 #include <algorithm>

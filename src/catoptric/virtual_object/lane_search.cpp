@@ -33,12 +33,12 @@ struct MapPlace {
 };
 
 CATOPTRIC_INLINE MapPlace findPlace(const LaneMap& map, const LaneVector& local) {
-  const LaneVector d = local - same(map.centre);
+  const LaneVector d = local - broadcast(map.centre);
   const Eight length = squareRoot(dot(d, d));
   const Eight scale =
-      1.0f / squareRoot(larger(2.0f * length * (dot(same(map.z), d) + length), Eight{} + 1e-12f));
-  const Eight x = (dot(same(map.x), d) * scale - map.lower.x) * map.pixelsPerUnit.x;
-  const Eight y = (dot(same(map.y), d) * scale - map.lower.y) * map.pixelsPerUnit.y;
+      1.0f / squareRoot(larger(2.0f * length * (dot(broadcast(map.z), d) + length), Eight{} + 1e-12f));
+  const Eight x = (dot(broadcast(map.x), d) * scale - map.lower.x) * map.pixelsPerUnit.x;
+  const Eight y = (dot(broadcast(map.y), d) * scale - map.lower.y) * map.pixelsPerUnit.y;
   const Eight size = Eight{} + float(map.size);
   MapPlace place;
   place.isInside = (x >= 0.0f) & (y >= 0.0f) & (x < size) & (y < size);
@@ -49,7 +49,7 @@ CATOPTRIC_INLINE MapPlace findPlace(const LaneMap& map, const LaneVector& local)
 }
 
 CATOPTRIC_INLINE LaneVector toLocal(const LaneView& view, const LaneVector& world) {
-  return world - same(view.centre) - same(view.centreRest);
+  return world - broadcast(view.centre) - broadcast(view.centreRest);
 }
 
 struct FindMaybeHidden {
@@ -57,8 +57,8 @@ struct FindMaybeHidden {
     constexpr float kSlack = 1e-4f;      // for the floats
     constexpr float kPixelDepth = 0.1f;  // by how much a pixel of the map may be nearer than its middle
     const LaneVector local = toLocal(view, loadVector(group.point));
-    const LaneVector toPoint = local - same(view.eye);
-    const Eight along = dot(toPoint, same(view.hiddenMap.z)), squared = dot(toPoint, toPoint);
+    const LaneVector toPoint = local - broadcast(view.eye);
+    const Eight along = dot(toPoint, broadcast(view.hiddenMap.z)), squared = dot(toPoint, toPoint);
     EightInts maybe = (along > (1 - kSlack) * view.hiddenNearest) &
                       (along * along > (view.hiddenSquaredCosine - kSlack) * squared);
     hidden = toBits(maybe);
@@ -99,7 +99,7 @@ CATOPTRIC_INLINE EightInts jumpTo(const LaneView& view, const EightInts& which, 
 
 /// Step 1.
 CATOPTRIC_INLINE void start(const LaneView& view, const LaneVector& local, Search& s) {
-  const LaneVector d = local - same(view.seedMap.centre);
+  const LaneVector d = local - broadcast(view.seedMap.centre);
   const Eight layer =
       (1.0f / squareRoot(larger(dot(d, d), Eight{} + 1e-30f)) - view.inverseNear) * view.layersPerInverse;
   const Eight nearWeight = 1.0f - smaller(larger(layer, Eight{}), Eight{} + 1.0f);
@@ -187,7 +187,7 @@ CATOPTRIC_INLINE Search begin(const LaneView& view, const LaneGroup& group, cons
 
 struct SearchLanes {
   CATOPTRIC_INLINE static void run(const LaneView& view, LaneGroup& group) {
-    const LaneVector local = toLocal(view, loadVector(group.point)), eye = same(view.eye);
+    const LaneVector local = toLocal(view, loadVector(group.point)), eye = broadcast(view.eye);
     Search s = begin(view, group, local);
     EightInts active = fromBits(group.wanted), found{}, lost{}, hard{}, stepsOutside{};
     Eight lastSine = Eight{} + 4.0f;
@@ -200,11 +200,11 @@ struct SearchLanes {
       stepsOutside -= isFar;
       const EightInts isEasy =
           (law.squaredSine < lastSine) & (law.facing > kGrazing) & (law.distance > view.touching);
-      const EightInts isLost = ~isEasy | (step == kMaxSteps - 1 ? ~isLast : EightInts{});
-      const EightInts isGone =
-          active & isLost & isFar & (law.facing > 0.0f) & (stepsOutside > kMostStepsOutside);
-      lost |= isGone;
-      active &= ~isGone;
+      const EightInts findsNoRoot = ~isEasy | (step == kMaxSteps - 1 ? ~isLast : EightInts{});
+      const EightInts isLost =
+          active & findsNoRoot & isFar & (law.facing > 0.0f) & (stepsOutside > kMostStepsOutside);
+      lost |= isLost;
+      active &= ~isLost;
       hard |= active & ~isEasy;
       active &= isEasy;
       const Eight u = s.u + law.stepU, v = s.v + law.stepV, outside = outsideBy(u, v);
@@ -230,7 +230,7 @@ struct SearchLanes {
     const LaneVector position = s.t.position0 + s.u * s.t.edge1 + s.v * s.t.edge2;
     const LaneVector toPosition = position - eye, onward = local - position;
     const Eight lengthening = squareRoot(dot(onward, onward) / dot(toPosition, toPosition));
-    const LaneVector rest = same(view.centreRest), centre = same(view.centre);
+    const LaneVector rest = broadcast(view.centreRest), centre = broadcast(view.centre);
     storeVector(group.position, (position + rest) + centre);
     storeVector(group.virtualPosition, ((position + lengthening * toPosition) + rest) + centre);
     group.found = toBits(found);
@@ -249,8 +249,8 @@ struct EvaluateLanes {
     std::memcpy(&triangle, group.triangle, sizeof triangle);
     Triangles t;
     gather(view.triangles, triangle, t);
-    const Law law =
-        evaluate(t, load(group.u), load(group.v), same(view.eye), toLocal(view, loadVector(group.point)));
+    const Law law = evaluate(t, load(group.u), load(group.v), broadcast(view.eye),
+                             toLocal(view, loadVector(group.point)));
     store(out.squaredSine, law.squaredSine), store(out.facing, law.facing), store(out.distance, law.distance);
     store(out.stepU, law.stepU), store(out.stepV, law.stepV);
   }

@@ -40,7 +40,7 @@ CATOPTRIC_INLINE LaneVector operator+(const LaneVector& a, const LaneVector& b) 
 CATOPTRIC_INLINE LaneVector operator*(const Eight& s, const LaneVector& a) {
   return {{s * a.v[0], s * a.v[1], s * a.v[2]}};
 }
-CATOPTRIC_INLINE LaneVector same(const vec3& a) {
+CATOPTRIC_INLINE LaneVector broadcast(const vec3& a) {
   return {{Eight{} + a.x, Eight{} + a.y, Eight{} + a.z}};
 }
 CATOPTRIC_INLINE Eight dot(const LaneVector& a, const LaneVector& b) {

@@ -48,7 +48,9 @@ std::uint32_t findCoverFlags(const raster::SceneBuffers& scene, std::uint32_t pa
 }
 
 bool SceneTriangles::fits(const scene::WorldGeometry& world) {
-  const std::size_t most = std::max(2 * world.triangleCount(), kVertexTexels * world.positions.size());
+  constexpr std::size_t kWithLevels = 4;  // a level has at most 0.7 of the triangles of the one before
+  const std::size_t most =
+      std::max(kWithLevels * world.triangleCount(), kVertexTexels * world.positions.size());
   return findTableSize(most).y <= gl::maxTextureSize();
 }
 

@@ -25,7 +25,7 @@ enum VertexAttribute : unsigned { kWithColors = 32, kWithSecondUv = 64 };
 
 class SceneTriangles {
  public:
-  /// Do the scene's vertices and triangles, and as many of levels of detail, fit into textures of this GL?
+  /// Do the scene's vertices and triangles, those of levels of detail included, fit into textures of this GL?
   [[nodiscard]] static bool fits(const scene::WorldGeometry& world);
   /// With those of SceneBuffers::levels(), if there are any by now. Throws core::Error("gl.texture_size") for
   /// a scene that does not fit.

@@ -23,7 +23,7 @@ const vec3 kRealColor(0.25f, 0.3f, 0.35f), kVirtualColor(0.9f, 0.45f, 0.1f), kMe
 void VirtualObjectMethod::completeOnCpu(const scene::WorldGeometry& world, std::uint32_t reflector,
                                         Prepared& p) const {
   if (p.isFoundOnCpu) return;
-  prepareSolver(world, p.eye, p);
+  p.setEye(p.mesh, world.bounds, p.eye, solverOptions());
   const Solver solver = equipSolver(world, reflector, p);
   p.solver->compute(solver, p.objects.positions, p.virtualPositions, p.kinds, p.reflectionPoints);
   p.isFoundOnCpu = true;

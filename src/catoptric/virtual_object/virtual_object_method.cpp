@@ -75,7 +75,7 @@ float VirtualObjectMethod::findLongestChord(const Prepared& p) {
 VirtualObjectMethod::InParts::InParts(const ReflectorMesh& mesh) : InParts(mesh, cutIntoParts(mesh)) {}
 
 VirtualObjectMethod::InParts::InParts(const ReflectorMesh& mesh, CutMirror cut) : buffers(mesh, cut) {
-  for (MirrorPart& part : cut.parts) parts.push_back({std::move(part), nullptr});
+  for (MirrorPart& shape : cut.parts) parts.emplace_back().shape = std::move(shape);
 }
 
 VirtualObjectMethod::Prepared& VirtualObjectMethod::prepareReflector(const raster::FrameContext& frame,
@@ -129,21 +129,23 @@ Solver VirtualObjectMethod::equipSolver(const scene::WorldGeometry& world, std::
   return prepared.solver->hasFinder() ? solver_ : Solver::Refined;
 }
 
-void VirtualObjectMethod::prepareSolver(const scene::WorldGeometry& world, const dvec3& drawEye,
-                                        Prepared& prepared) const {
-  const core::Box& bounds = world.bounds;
-  const double farRadius = glm::length(bounds.centre() - prepared.mesh.centre()) + bounds.radius();
-  if (!prepared.solver || prepared.farRadius != farRadius) {
-    prepared.farRadius = farRadius;
-    prepared.finderOf = Solver::Refined;
-    SolverOptions options;
-    if (solver_ ==
-        Solver::Refined)  // its maps only say where to start; a new eye pays for each of their pixels
-      options.mapResolution /= 2, options.seedResolution /= 2;
-    prepared.solver = std::make_unique<VirtualObjectSolver>(prepared.mesh, drawEye, farRadius, options);
-  } else if (prepared.solver->eye() != drawEye) {
-    prepared.solver->setEye(drawEye);
+void VirtualObjectMethod::Search::setEye(const ReflectorMesh& mesh, const core::Box& sceneBounds,
+                                         const dvec3& eye, const SolverOptions& options) {
+  const double reach = glm::length(sceneBounds.centre() - mesh.centre()) + sceneBounds.radius();
+  if (!solver || farRadius != reach) {
+    farRadius = reach;
+    finderOf = Solver::Refined;
+    solver = std::make_unique<VirtualObjectSolver>(mesh, eye, farRadius, options);
+  } else if (solver->eye() != eye) {
+    solver->setEye(eye);
   }
+}
+
+SolverOptions VirtualObjectMethod::solverOptions() const {
+  SolverOptions options;
+  // Refined only begins where its maps say, and a new eye pays for each of their pixels.
+  if (solver_ == Solver::Refined) options.mapResolution /= 2, options.seedResolution /= 2;
+  return options;
 }
 
 void VirtualObjectMethod::computeVirtualVertices(raster::FrameContext& frame, const raster::Chain& chain,
@@ -191,7 +193,7 @@ bool VirtualObjectMethod::drawObjects(raster::FrameContext& frame, const raster:
     return true;
   }
   const auto start = std::chrono::steady_clock::now();
-  prepareSolver(frame.scene.geometry(), drawEye, p);
+  p.setEye(p.mesh, frame.scene.geometry().bounds, drawEye, solverOptions());
   if (!p.solver->canReflect()) return false;
   const bool onGpu = usesGpu(p);
   if (!onGpu) {

@@ -70,13 +70,22 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     std::vector<std::uint8_t> blendedRuns;  ///< by run: holds a vertex of a blended part
     bool hasBlended = false;
   };
+  /// A solver that follows the eye.
+  struct Search {
+    /// Makes the solver, or gives it the eye. `mesh` must outlive it.
+    void setEye(const ReflectorMesh& mesh, const core::Box& sceneBounds, const dvec3& eye,
+                const SolverOptions& options);
+    std::unique_ptr<VirtualObjectSolver> solver;
+    double farRadius = 0;               ///< that it was made for
+    Solver finderOf = Solver::Refined;  ///< whose finder it was given
+    LanePlaces places;                  ///< of the last frame, where the next one begins
+  };
   /// What is kept for a mirror that is not convex.
   struct InParts {
     explicit InParts(const ReflectorMesh& mesh);
-    struct Part {
+    struct Part : Search {
       MirrorPart shape;
-      std::unique_ptr<VirtualObjectSolver> solver;  ///< made when first seen
-      bool isWorthIt = false;                       ///< a virtual object, for the last eye
+      bool isWorthIt = false;  ///< a virtual object, for the last eye
     };
     std::vector<Part> parts;
     PartBuffers buffers;
@@ -93,7 +102,7 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     InParts(const ReflectorMesh& mesh, CutMirror cut);
   };
   /// Everything kept for one curved reflector from frame to frame.
-  struct Prepared {
+  struct Prepared : Search {
     Prepared(const scene::WorldGeometry& world, std::uint32_t reflector, bool flipped,
              const raster::TessellationOptions& options, bool mayBeInParts);
     /// After partsMoved(): what follows from the objects.
@@ -108,13 +117,9 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     raster::VirtualObjectPass pass;
     std::unique_ptr<NumberedTriangles> numbered;    ///< made when first needed
     std::vector<std::uint8_t> isNumbered, isDrawn;  ///< by part: how it is drawn
-    std::unique_ptr<VirtualObjectSolver> solver;
-    double farRadius = 0;               ///< that the solver was made for
-    Solver finderOf = Solver::Refined;  ///< whose finder the solver was given
-    std::vector<vec3> scenePoints;      ///< vertices mirrored by the planar links behind the curved one
+    std::vector<vec3> scenePoints;  ///< vertices mirrored by the planar links behind the curved one
     std::vector<vec3> virtualPositions, reflectionPoints;
     std::vector<VertexKind> kinds;
-    LanePlaces places;                     ///< of the last frame, where the next one begins
     std::vector<std::uint8_t> mayReflect;  ///< by run
     std::unique_ptr<OnGpu> gpu;            ///< made when first needed
     std::unique_ptr<InParts> inParts;      ///< likewise
@@ -132,8 +137,7 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
                                       const dvec3& drawEye, const raster::Level& parent);
   Prepared& prepareReflector(const raster::FrameContext& frame, const raster::Chain& chain,
                              const dvec3& drawEye);
-  /// Makes the solver, or gives it the eye.
-  void prepareSolver(const scene::WorldGeometry& world, const dvec3& drawEye, Prepared& prepared) const;
+  [[nodiscard]] SolverOptions solverOptions() const;
   /// Of all vertices that may be reflected; `wanted`: only of these runs (empty: of all).
   void computeVirtualVertices(raster::FrameContext& frame, const raster::Chain& chain, Prepared& prepared,
                               std::span<const std::uint8_t> wanted = {}) const;

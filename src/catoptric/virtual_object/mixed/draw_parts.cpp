@@ -4,13 +4,12 @@
 //
 // Steps:
 //   1. Which part of the mirror is seen at each pixel (part_image.h).
-//   2. For each part that shows enough pixels: virtual vertices by a search within that part, virtual
-//   triangles drawn as
-//      numbers at that part's pixels.
+//   2. For each part that is worth it: virtual vertices by a search within that part, virtual triangles drawn
+//      as numbers at that part's pixels.
 //   3. Each pixel's ray is held against the triangle whose number is there (part_pixels.h); those that agree
-//   are shaded.
+//      are shaded.
 //   4. The others, and pixels of no part, are drawn by solver `exact`, as if the rest of the mirror were not
-//   there.
+//      there.
 #include <algorithm>
 #include <chrono>
 
@@ -73,19 +72,12 @@ void VirtualObjectMethod::markPartTriangles(const scene::WorldGeometry& world, c
 
 void VirtualObjectMethod::findPartVertices(raster::FrameContext& frame, const dvec3& drawEye,
                                            InParts::Part& part, Prepared& p) const {
-  const core::Box& bounds = frame.scene.geometry().bounds;
-  if (!part.solver) {
-    const ReflectorMesh& mesh = *part.shape.mesh;
-    const double farRadius = glm::length(bounds.centre() - mesh.centre()) + bounds.radius();
-    part.solver = std::make_unique<VirtualObjectSolver>(mesh, drawEye, farRadius);
-  } else if (part.solver->eye() != drawEye) {
-    part.solver->setEye(drawEye);
-  }
+  part.setEye(*part.shape.mesh, frame.scene.geometry().bounds, drawEye, solverOptions());
   p.mayReflect.clear();
   if (part.solver->canReflect())
     findReflectedRuns(p.runs, part.solver->reflectedCone(), dmat4(1.0), p.mayReflect);
   part.solver->compute(Solver::Refined, p.objects.positions, p.virtualPositions, p.kinds, p.reflectionPoints,
-                       p.mayReflect);
+                       p.mayReflect, &part.places);
   const std::size_t culled = p.runs.countLeftOut(p.mayReflect);
   frame.counters.virtualVertices += p.objects.positions.size() - culled;
   frame.counters.culledVertices += culled;

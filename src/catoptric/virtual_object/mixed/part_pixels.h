@@ -3,9 +3,8 @@
 //
 // In:  the triangle whose number was drawn at each pixel; the pixels' reflected rays (world).
 // Out: a pixel is done if its ray meets that triangle, or misses it by no more than a pixel sees of it. The
-// others have
-//      lost their hit: no triangle was drawn there (it has no image by one reflection point a corner: a focus
-//      lies in between, or a caustic runs through it), or a wrong one was.
+//      others have lost their hit: no triangle was drawn there (it has no image by one reflection point a
+//      corner: a focus lies in between, or a caustic runs through it), or a wrong one was.
 // Cost: about 20 ns a pixel on one core; rows are shared out over all.
 #pragma once
 

@@ -6,16 +6,14 @@
 // Out: for each part its size on the screen and the share of it whose reflection is one-to-one.
 // Steps:
 //   1. Some hundred triangles of each part that the eye sees the front of, weighted by their size on the
-//   screen.
+//      screen.
 //   2. X(u, v, t) = J + t r over such a triangle: det[J_u + t r_u, J_v + t r_v, r] is a quadratic in t; its
-//   positive roots
-//      are the focal distances along the triangle's reflected ray.
+//      positive roots are the focal distances along the triangle's reflected ray.
 //   3. What does that ray meet, and where? It may be the mirror itself: no virtual object shows that.
 //   4. A sample is one-to-one where the thing is farther than kNearFocus of each root away from it. Samples
-//   are grouped by
-//      how many roots lie before the thing; the largest group is what one virtual object can show, because
-//      what lies in another interval has another reflection point, which a search does not find at the same
-//      time.
+//      are grouped by how many roots lie before the thing; the largest group is what one virtual object can
+//      show, because what lies in another interval has another reflection point, which a search does not find
+//      at the same time.
 // Departures: mirrors that hide each other, and the picture's frame, are not asked for.
 // Cost: about 2 us a sample.
 // Source: methods.md; focal distances as of any two-parameter family of rays.
