@@ -232,10 +232,12 @@ void fillHiddenMap(const ReflectorMesh& mesh, const dvec3& eye, MapScratch& scra
       if (!(glm::dot(scratch.coords[v], scratch.coords[v]) < 0.8)) return false;
     return true;
   };
+  scratch.queue.clear();
   dvec2 lower(1), upper(-1);
   map.nearest = 1e300;
   for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
     if (!isSeen(t)) continue;
+    scratch.queue.push_back(std::uint32_t(t));
     for (const std::uint32_t v : cornersOf(mesh, t)) {
       lower = glm::min(lower, scratch.coords[v]), upper = glm::max(upper, scratch.coords[v]);
       map.nearest = std::min(map.nearest, glm::dot(mesh.positions()[v] - eye, map.frame.z));
@@ -250,8 +252,7 @@ void fillHiddenMap(const ReflectorMesh& mesh, const dvec3& eye, MapScratch& scra
   const int n = map.ids.width();
   map.lower = lower;
   map.pixelsPerUnit = double(n) / glm::max(upper - lower, dvec2(1e-9));
-  for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
-    if (!isSeen(t)) continue;
+  for (const std::uint32_t t : scratch.queue) {
     const auto v = cornersOf(mesh, t);
     std::array<dvec2, 3> px;
     for (int k = 0; k < 3; ++k) px[k] = (scratch.coords[v[k]] - map.lower) * map.pixelsPerUnit;
@@ -260,7 +261,7 @@ void fillHiddenMap(const ReflectorMesh& mesh, const dvec3& eye, MapScratch& scra
                              float(w.z) * scratch.distances[v[2]];
       if (distance >= map.distances.at(x, y)) return;
       map.distances.at(x, y) = distance;
-      map.ids.at(x, y) = std::uint32_t(t);
+      map.ids.at(x, y) = t;
     });
   }
 }

@@ -14,6 +14,8 @@ namespace catoptric::virtual_object {
 
 namespace {
 
+constexpr double kMapsServeWithin = 0.2;  // searches begin a tenth of the mirror's radius off at most
+
 /// What the parts of a mirror show is held against the scene's own triangles, pixel by pixel.
 raster::TessellationOptions withoutLevels(raster::TessellationOptions options) {
   options.levels = nullptr;
@@ -144,7 +146,10 @@ void VirtualObjectMethod::Search::setEye(const ReflectorMesh& mesh, const core::
 SolverOptions VirtualObjectMethod::solverOptions() const {
   SolverOptions options;
   // Refined only begins where its maps say, and a new eye pays for each of their pixels.
-  if (solver_ == Solver::Refined) options.mapResolution /= 2, options.seedResolution /= 2;
+  if (solver_ == Solver::Refined) {
+    options.mapResolution /= 2, options.seedResolution /= 2, options.hiddenMapResolution /= 2;
+    options.mapsServeWithin = kMapsServeWithin;
+  }
   return options;
 }
 

@@ -73,16 +73,27 @@ void VirtualObjectSolver::setEye(const dvec3& eye) {
   // Weights from relative distances d_near = (rho - r_n) / r_n, d_far = (r_f - rho) / r_f: linear in 1 / rho.
   inverseNear_ = 1.0 / nearRadius;
   layersPerInverse_ = 1.0 / (1.0 / farRadius - inverseNear_);
-  core::parallelFor(3, 1, [&](std::size_t begin, std::size_t end) {
+  const bool doServe = doMapsServe(eye);
+  core::parallelFor(doServe ? 1 : 3, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (i == 0) fillExplosionMap(*mesh_, eye, nearRadius, rays_, scratch_[0], nearMap_);
-      if (i == 1) fillExplosionMap(*mesh_, eye, farRadius, rays_, scratch_[1], farMap_);
-      if (i == 2) fillHiddenMap(*mesh_, eye, scratch_[2], hiddenMap_);
+      if (i == 0) fillHiddenMap(*mesh_, eye, scratch_[0], hiddenMap_);
+      if (i == 1) fillExplosionMap(*mesh_, eye, nearRadius, rays_, scratch_[1], nearMap_);
+      if (i == 2) fillExplosionMap(*mesh_, eye, farRadius, rays_, scratch_[2], farMap_);
     }
   });
-  fillSeedMap(*mesh_, nearMap_, farMap_, seedMap_);
+  if (!doServe) {
+    fillSeedMap(*mesh_, nearMap_, farMap_, seedMap_);
+    mapEye_ = eye;
+  }
   if (mesh_->isConvex()) prepareLanes();
   if (finder_) finder_->setEye(eyeView());
+}
+
+/// Do near and far map still say where searches may begin?
+bool VirtualObjectSolver::doMapsServe(const dvec3& eye) const {
+  if (!mapEye_ || !mesh_->isConvex()) return false;
+  const double distance = glm::length(*mapEye_ - mesh_->centre()) - mesh_->radius();
+  return glm::length(eye - *mapEye_) < options_.mapsServeWithin * distance;
 }
 
 /// Where the ray to the point meets the triangle that hides the point from the eye; nothing if none does.

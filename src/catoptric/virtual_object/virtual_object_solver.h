@@ -40,8 +40,11 @@ struct SolverOptions {
   int mapResolution = 256;        ///< pixels across the near and far map
   int hiddenMapResolution = 256;  ///< pixels across the hidden map
   int seedResolution = 128;       ///< pixels across the map of starting points of Refined
-  int newtonSteps = 16;           ///< most evaluations of Refined; three are usual
-  double tolerance = 1e-5;        ///< of Refined: sine of the angle between normal and half vector at J
+  /// On a convex mirror, how far the eye may go, as a share of its distance to the mirror, until near and far
+  /// map are filled anew. Only for Refined, whose searches end in the one root wherever they begin.
+  double mapsServeWithin = 0;
+  int newtonSteps = 16;     ///< most evaluations of Refined; three are usual
+  double tolerance = 1e-5;  ///< of Refined: sine of the angle between normal and half vector at J
 };
 
 /// Where the eye sees a scene point.
@@ -143,6 +146,7 @@ class VirtualObjectSolver {
                                              double nearWeight) const;
   [[nodiscard]] VirtualVertex solveRefined(const dvec3& scenePoint, const SeedPixel& seed,
                                            double nearWeight) const;
+  [[nodiscard]] bool doMapsServe(const dvec3& eye) const;
   void computeInOrder(const VertexSink& sink, std::size_t begin, std::size_t end) const;
   void computeInLanes(const VertexSink& sink, std::size_t begin, std::size_t end) const;
   void solveGroup(const VertexSink& sink, std::size_t first, std::size_t count) const;
@@ -156,6 +160,7 @@ class VirtualObjectSolver {
 
   const ReflectorMesh* mesh_;
   dvec3 eye_{0};
+  std::optional<dvec3> mapEye_;  ///< for which near and far map were filled
   double farRadius_ = 0, inverseNear_ = 0, layersPerInverse_ = 0;
   SolverOptions options_;
   bool canReflect_ = false;
