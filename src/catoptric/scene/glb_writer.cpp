@@ -9,6 +9,7 @@
 #include <span>
 
 #include "catoptric/core/image_io.h"
+#include "catoptric/core/parallel.h"
 #include "catoptric/scene/glb_material.h"
 
 namespace catoptric::scene {
@@ -23,13 +24,34 @@ bool isOpaque(const core::ImageRgba8& image) {
                      [](const glm::u8vec4& p) { return p.a == 255; });
 }
 
+struct EncodedImage {
+  bool isJpeg = false;
+  std::vector<std::byte> bytes;
+};
+
+/// Of all textures at once: one after the other they take as long as all else.
+std::vector<EncodedImage> encodeImages(std::span<const Texture> textures, const GlbOptions& options) {
+  std::vector<EncodedImage> images(textures.size());
+  core::parallelFor(images.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const core::ImageRgba8& image = textures[i].image;
+      images[i].isJpeg =
+          options.jpegFromPixels > 0 && image.size() >= options.jpegFromPixels && isOpaque(image);
+      images[i].bytes =
+          images[i].isJpeg ? core::encodeJpeg(image, options.jpegQuality) : core::encodePng(image);
+    }
+  });
+  return images;
+}
+
 class GlbBuilder {
  public:
   GlbBuilder(const Scene& scene, const GlbOptions& options) : scene_(scene), options_(options) {}
 
   std::vector<std::byte> build() {
     document_["asset"] = {{"version", "2.0"}, {"generator", options_.generator}};
-    for (const Texture& texture : scene_.textures) addTexture(texture);
+    const std::vector<EncodedImage> images = encodeImages(scene_.textures, options_);
+    for (std::size_t i = 0; i < images.size(); ++i) addTexture(scene_.textures[i], images[i]);
     for (const Material& material : scene_.materials)
       document_["materials"].push_back(makeMaterialJson(material, used_));
     for (const Mesh& mesh : scene_.meshes) addMesh(mesh);
@@ -88,12 +110,9 @@ class GlbBuilder {
     return samplers.size() - 1;
   }
 
-  void addTexture(const Texture& texture) {
-    const bool asJpeg = options_.jpegFromPixels > 0 && texture.image.size() >= options_.jpegFromPixels &&
-                        isOpaque(texture.image);
-    const std::vector<std::byte> bytes =
-        asJpeg ? core::encodeJpeg(texture.image, options_.jpegQuality) : core::encodePng(texture.image);
-    Json image = {{"bufferView", addView(bytes, 0)}, {"mimeType", asJpeg ? "image/jpeg" : "image/png"}};
+  void addTexture(const Texture& texture, const EncodedImage& encoded) {
+    Json image = {{"bufferView", addView(encoded.bytes, 0)},
+                  {"mimeType", encoded.isJpeg ? "image/jpeg" : "image/png"}};
     if (!texture.name.empty()) image["name"] = texture.name;
     document_["images"].push_back(image);
     document_["textures"].push_back(
