@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "catoptric/core/eight_lanes.h"
+#include "catoptric/virtual_object/lane_map.h"
 #include "catoptric/virtual_object/mesh_walk.h"
 #include "catoptric/virtual_object/mirror_law_lanes.h"
 
@@ -24,52 +25,7 @@ constexpr int kMaxSteps = 8;          // more means that the start was bad
 constexpr float kFarOutside = 0.5f;   // there the extrapolated mirror is no guide
 constexpr int kMostStepsOutside = 1;  // there, unless they lead on
 constexpr float kOutside = 1e-5f;     // barycentric slack
-constexpr int kMostCrossings = 24;
-
-/// Where a map shows a point.
-struct MapPlace {
-  EightInts isInside;
-  EightInts index;  ///< of its pixel, 0 where it is not inside
-};
-
-CATOPTRIC_INLINE MapPlace findPlace(const LaneMap& map, const LaneVector& local) {
-  const LaneVector d = local - broadcast(map.centre);
-  const Eight length = squareRoot(dot(d, d));
-  const Eight scale =
-      1.0f / squareRoot(larger(2.0f * length * (dot(broadcast(map.z), d) + length), Eight{} + 1e-12f));
-  const Eight x = (dot(broadcast(map.x), d) * scale - map.lower.x) * map.pixelsPerUnit.x;
-  const Eight y = (dot(broadcast(map.y), d) * scale - map.lower.y) * map.pixelsPerUnit.y;
-  const Eight size = Eight{} + float(map.size);
-  MapPlace place;
-  place.isInside = (x >= 0.0f) & (y >= 0.0f) & (x < size) & (y < size);
-  const EightInts column = __builtin_convertvector(place.isInside ? x : Eight{}, EightInts),
-                  row = __builtin_convertvector(place.isInside ? y : Eight{}, EightInts);
-  place.index = row * map.size + column;
-  return place;
-}
-
-CATOPTRIC_INLINE LaneVector toLocal(const LaneView& view, const LaneVector& world) {
-  return world - broadcast(view.centre) - broadcast(view.centreRest);
-}
-
-struct FindMaybeHidden {
-  CATOPTRIC_INLINE static void run(const LaneView& view, const LaneGroup& group, unsigned& hidden) {
-    constexpr float kSlack = 1e-4f;      // for the floats
-    constexpr float kPixelDepth = 0.1f;  // by how much a pixel of the map may be nearer than its middle
-    const LaneVector local = toLocal(view, loadVector(group.point));
-    const LaneVector toPoint = local - broadcast(view.eye);
-    const Eight along = dot(toPoint, broadcast(view.hiddenMap.z)), squared = dot(toPoint, toPoint);
-    EightInts maybe = (along > (1 - kSlack) * view.hiddenNearest) &
-                      (along * along > (view.hiddenSquaredCosine - kSlack) * squared);
-    hidden = toBits(maybe);
-    if (hidden == 0) return;
-    const MapPlace place = findPlace(view.hiddenMap, local);
-    Eight distance;
-    for (int i = 0; i < kLanes; ++i) distance[i] = view.hiddenDistances[std::uint32_t(place.index[i])];
-    maybe &= place.isInside & (squared > (1 - kPixelDepth) * distance * distance);
-    hidden = toBits(maybe);
-  }
-};
+constexpr int kMostCrossings = 120;   // half round a finely cut mirror
 
 struct Search {
   EightInts triangle;
@@ -266,12 +222,6 @@ std::vector<LaneTriangle> makeLaneTriangles(const ReflectorMesh& mesh) {
                      vec3(t.normal1), vec3(t.normal2), float(t.gram11), float(t.gram12), float(t.gram22),
                      t.neighbours, t.flags});
   return lanes;
-}
-
-unsigned findMaybeHidden(const LaneView& view, const LaneGroup& group) {
-  unsigned hidden = 0;
-  core::runOnWidestVectors<FindMaybeHidden>(view, group, hidden);
-  return hidden;
 }
 
 void searchLanes(const LaneView& view, LaneGroup& group) {

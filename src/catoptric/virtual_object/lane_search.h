@@ -56,7 +56,7 @@ struct LaneView {
   vec3 eye{0};
   LaneMap hiddenMap, seedMap;
   std::span<const std::uint32_t> hiddenIds;
-  std::span<const float> hiddenDistances;
+  std::span<const std::int32_t> surelyHiding;  ///< findSurelyHiding()
   std::span<const SeedPixel> seeds;
   float hiddenNearest = 0, hiddenSquaredCosine = 2;
   float inverseNear = 0, layersPerInverse = 0;
@@ -84,7 +84,9 @@ struct alignas(64) LaneGroup {
   std::int32_t triangle[kLanes];  ///< in: as LanePlaces; out: of those found
   LaneFloats u, v;
 
-  // Out: each wanted lane is in one of the first three.
+  unsigned hidden = 0;  ///< out of hideLanes(): mirrored where the mirror hides them
+
+  // Out of searchLanes(): each wanted lane is in one of the first three.
   unsigned found = 0;
   unsigned lost = 0;       ///< far past the mirror's edge, where no root was found; the last place is there
   unsigned hard = 0;       ///< for the double search
@@ -92,9 +94,13 @@ struct alignas(64) LaneGroup {
   LaneFloats virtualPosition[3], position[3];  ///< Q', J, world
 };
 
-/// Lanes that may be hidden by the mirror: in the others the point surely lies in front of it or beside it.
-[[nodiscard]] unsigned findMaybeHidden(const LaneView& view, const LaneGroup& group);
+/// By pixel of a hidden map: its triangle where the pixels around it have one, too; -1 elsewhere.
+void findSurelyHiding(const core::Image<std::uint32_t>& ids, std::vector<std::int32_t>& surelyHiding);
 
+/// Finds the wanted lanes that the mirror surely hides, and their places, as `hidden`.
+void hideLanes(const LaneView& view, LaneGroup& group);
+
+/// Overwrites places of lanes that are not wanted.
 void searchLanes(const LaneView& view, LaneGroup& group);
 
 /// The law at one place each, for tests.

@@ -45,7 +45,8 @@ void VirtualObjectSolver::prepareLanes() {
       mapOf(hiddenMap_.frame, view.eye, hiddenMap_.lower, hiddenMap_.pixelsPerUnit, hiddenMap_.ids.width());
   view.seedMap = mapOf(nearMap_.frame, vec3(nearMap_.centre - centre), dvec2(-1), dvec2(0.5 * seeds), seeds);
   view.hiddenIds = hiddenMap_.ids.pixels();
-  view.hiddenDistances = hiddenMap_.distances.pixels();
+  findSurelyHiding(hiddenMap_.ids, surelyHiding_);
+  view.surelyHiding = surelyHiding_;
   view.seeds = seedMap_.pixels.pixels();
   view.hiddenNearest = float(hiddenMap_.nearest);
   view.hiddenSquaredCosine = float(hiddenMap_.squaredCosine);
@@ -69,21 +70,17 @@ void VirtualObjectSolver::solveGroup(const VertexSink& sink, std::size_t first, 
     else
       sink.write(first + lane, VirtualVertex{});
   }
-  // 1
-  forEachLane(findMaybeHidden(laneView_, group) & group.wanted, [&](std::size_t lane) {
-    const dvec3 point(sink.scenePoints[first + lane]);
-    if (const auto hiding = findHidingPoint(point, true)) {
-      sink.write(first + lane, mirrorHidden(*hiding, point));
-      group.wanted &= ~(1u << lane);
-    }
-  });
-  if (group.wanted == 0) return;
-  // 2
-  searchLanes(laneView_, group);
   const auto write = [&](std::size_t lane, bool isOutside) {
     sink.write(first + lane, laneOf(group.virtualPosition, lane), laneOf(group.position, lane),
                isOutside ? VertexKind::DoublyVirtual : VertexKind::Reflected);
   };
+  // 1
+  hideLanes(laneView_, group);
+  forEachLane(group.hidden, [&](std::size_t lane) { write(lane, true); });
+  group.wanted &= ~group.hidden;
+  if (group.wanted == 0) return;
+  // 2
+  searchLanes(laneView_, group);
   forEachLane(group.found, [&](std::size_t lane) { write(lane, (group.isOutside >> lane & 1u) != 0); });
   if (places != nullptr)
     for (std::size_t lane = 0; lane < count; ++lane) {

@@ -170,6 +170,7 @@ class VirtualObjectSolver {
   ReflectedCone cone_;
   ReflectedRays rays_;
   std::vector<LaneTriangle> laneTriangles_;
+  std::vector<std::int32_t> surelyHiding_;
   LaneView laneView_;
   MapScratch scratch_[3];
   std::unique_ptr<PointFinder> finder_;
