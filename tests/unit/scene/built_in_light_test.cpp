@@ -91,6 +91,20 @@ TEST(Textures, NoiseIsPeriodicAndInRange) {
   }
 }
 
+TEST(Textures, OctavesSideBySideAreThoseOneByOneToTheBit) {
+  const ivec2 period(6, 3);
+  for (int i = -300; i < 300; ++i) {
+    const dvec2 p(0.0373 * i, 0.0617 * i);
+    double sum = 0, weight = 0, strength = 1;
+    for (int octave = 0; octave < 6; ++octave) {
+      sum += strength * periodicNoise(p * double(1 << octave), period * (1 << octave), 9 + 101 * octave);
+      weight += strength;
+      strength *= 0.5;
+    }
+    EXPECT_EQ(fractalNoise(p, period, 6, 9), sum / weight) << i;
+  }
+}
+
 TEST(WingMirror, IsSphericalInsideAndBendsMoreOutside) {
   WingMirrorOptions options;
   options.isOuterLeft = true;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "catoptric/scene/built_in/noise.h"
 
+#include "catoptric/core/widest_vectors.h"
+
+#pragma GCC diagnostic ignored "-Wpsabi"  // all vectors are inlined
+
 namespace catoptric::scene::built_in {
 namespace {
 
@@ -34,6 +38,61 @@ inline std::uint32_t hash(int x, int y, std::uint32_t seed) {
 }
 
 constexpr double kToUnit = 1.0 / 4294967296.0;
+constexpr std::uint32_t kOctaveSeed = 101;
+
+constexpr int kLanes = 4;
+using Doubles = double __attribute__((vector_size(32)));
+using Ints = std::int32_t __attribute__((vector_size(16)));
+using Words = std::uint32_t __attribute__((vector_size(16)));
+
+CATOPTRIC_INLINE Doubles toDoubles(const Words& words) {
+  constexpr std::uint32_t kSign = 1u << 31;  // only signed numbers are converted by one instruction
+  return __builtin_convertvector(Ints(words ^ kSign), Doubles) + double(kSign);
+}
+
+/// hash(), of which the parts of x and y are given.
+CATOPTRIC_INLINE Doubles hashValues(const Words& xPart, const Words& yPart) {
+  Words h = xPart ^ yPart;
+  h ^= h >> 16;
+  h *= 0x7FEB352Du;
+  h ^= h >> 15;
+  h *= 0x846CA68Bu;
+  return toDoubles(h ^ (h >> 16));
+}
+
+/// periodicNoise() of four octaves from `first` on, to the bit.
+struct FourOctaves {
+  CATOPTRIC_INLINE static void run(const dvec2& p, const ivec2& period, const int& first,
+                                   const std::uint32_t& seed, Doubles& noise) {
+    const Ints scales = Ints{1, 2, 4, 8} << first;
+    const Words octaves = Words{0, 1, 2, 3} + std::uint32_t(first);
+    const Doubles scale = __builtin_convertvector(scales, Doubles);
+    const Words seedPart = (seed + octaves * kOctaveSeed) * 0x9E3779B9u;
+    Doubles fraction[2];
+    Words low[2], high[2];
+    for (int axis = 0; axis < 2; ++axis) {
+      const Doubles x = p[axis] * scale;
+      const Ints truncated = __builtin_convertvector(x, Ints), repeat = period[axis] * scales;
+      const Ints isAbove = __builtin_convertvector(__builtin_convertvector(truncated, Doubles) > x, Ints);
+      const Ints cell = truncated + isAbove;  // -1 where it holds
+      const Doubles t = x - __builtin_convertvector(cell, Doubles);
+      fraction[axis] = t * t * t * (t * (t * 6 - 15) + 10);
+      Ints at = cell;
+      const Ints isOutside = (cell < 0) | (cell >= repeat);
+      if ((isOutside[0] | isOutside[1] | isOutside[2] | isOutside[3]) != 0)
+        for (int lane = 0; lane < kLanes; ++lane) at[lane] = wrap(cell[lane], repeat[lane]);
+      const Ints following = at + 1;
+      const std::uint32_t factor = axis == 0 ? 0x85EBCA6Bu : 0xC2B2AE35u;
+      low[axis] = Words(at) * factor;
+      high[axis] = Words(following == repeat ? Ints{} : following) * factor;
+    }
+    const Words left = low[0] ^ seedPart, right = high[0] ^ seedPart;
+    const Doubles a = hashValues(left, low[1]), b = hashValues(right, low[1]);
+    const Doubles c = hashValues(left, high[1]), d = hashValues(right, high[1]);
+    const Doubles top = a + (b - a) * fraction[0], bottom = c + (d - c) * fraction[0];
+    noise = (top + (bottom - top) * fraction[1]) * kToUnit;
+  }
+};
 
 }  // namespace
 
@@ -53,11 +112,14 @@ double periodicNoise(const dvec2& p, const ivec2& period, std::uint32_t seed) {
 
 double fractalNoise(const dvec2& p, const ivec2& period, int octaves, std::uint32_t seed) {
   double sum = 0, weight = 0, strength = 1;
-  for (int octave = 0; octave < octaves; ++octave) {
-    const int scale = 1 << octave;
-    sum += strength * periodicNoise(p * double(scale), period * scale, seed + std::uint32_t(octave) * 101u);
-    weight += strength;
-    strength *= 0.5;
+  for (int first = 0; first < octaves; first += kLanes) {
+    Doubles noise;
+    core::runOnWidestVectors<FourOctaves>(p, period, first, seed, noise);
+    for (int lane = 0; lane < kLanes && first + lane < octaves; ++lane) {
+      sum += strength * noise[lane];
+      weight += strength;
+      strength *= 0.5;
+    }
   }
   return sum / weight;
 }
