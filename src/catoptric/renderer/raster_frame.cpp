@@ -101,7 +101,8 @@ RasterFrame::RasterFrame(gl::Context& context, const scene::Scene& scene,
       chains_(geometry),
       primary_(surfaces_),
       exact_(hits_),
-      virtual_(virtual_object::Solver::Refined, hits_, exact_) {
+      virtual_(virtual_object::Solver::Refined, hits_, exact_),
+      numbersByGl_(!context.isSoftware()) {
   if (geometry.reflectors.size() >= 0xffffu)
     throw core::Error("renderer.reflectors", "the scene has more than 65534 mirrors", {},
                       "use --reflector NAME to pick some");
@@ -359,7 +360,7 @@ Frame RasterFrame::render(const scene::CameraFrame& camera, const FrameOptions& 
   Frame frame;
   const int samples = std::max(1, options.samples);
   prepareLevels(1, options);
-  virtual_.setSolver(virtualObjectSolver(options.solver), findsVerticesOnGpu(options));
+  virtual_.setSolver(virtualObjectSolver(options.solver), findsVerticesOnGpu(options), numbersByGl_);
   if (options.method == Method::Morphing) prepareMorphing(camera.eye, options);
   zexel_.setOptions(options.zexel);
   if (options.method == Method::Zexel) prepareZexels(options);
