@@ -219,6 +219,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   levels_[0]->withSeen = options.withSeen || options.drawsSeen;
   levels_[0]->composesSeen = options.withSeen;
   levels_[0]->isLast = mostLevels == 0;
+  levels_[0]->withIds = mostLevels > 0;
   std::future<void> levelsOfDetail;  // made while GL compiles and draws, once a scene
   if (mostLevels > 0 && needsLevelsOfDetail(options))
     levelsOfDetail = std::async(std::launch::async, [this] { static_cast<void>(scene_.levels()); });
@@ -244,10 +245,12 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
     prepareLevels(level + 2, options);
     // 3, 4
     raster::Level& target = *levels_[std::size_t(level) + 1];
-    target.clear(findUnion(mirrors));
     target.withSeen = options.withSeen || options.drawsSeen;
     target.composesSeen = options.withSeen;
     target.isLast = level + 1 == mostLevels;
+    target.withIds = !target.isLast || options.merge != Merge::Ids;
+    target.clear(findUnion(mirrors));
+    target.drawnRects = std::move(mirrors.rects);
     for (const raster::Chain& chain : mirrors.chains) {
       raster::ReflectionMethod* method = pickMethod(chain, options);
       if (method)

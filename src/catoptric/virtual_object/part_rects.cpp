@@ -43,7 +43,10 @@ class TileParts {
   void clear() {
     parts_.clear();
     lastHit_ = 0;
+    rest_ = 0;
   }
+  /// Blocks with pixels of the mirror at which no part is seen.
+  [[nodiscard]] std::uint64_t rest() const { return rest_; }
   [[nodiscard]] std::span<const PartBlocks> parts() const { return parts_; }
 
   void addBlock(const HitImage& image, int x, int y, std::uint64_t bit) {
@@ -57,7 +60,11 @@ class TileParts {
       const uvec2 *ids = image.idRow(py), *hits = image.hitRow(py);
       for (int px = b.x; px < b.x + b.width; ++px) {
         const std::uint32_t hit = hits[px].x;
-        if (hit == 0 || (!isInner && ids[px].y != image.parentWord)) continue;
+        if (!isInner && ids[px].y != image.parentWord) continue;
+        if (hit == 0) {
+          rest_ |= bit;
+          continue;
+        }
         PartBlocks& blocks = find(image, hit);
         (isInner ? blocks.inner : blocks.edges) |= bit;
       }
@@ -75,6 +82,7 @@ class TileParts {
   }
 
   std::vector<PartBlocks> parts_;
+  std::uint64_t rest_ = 0;
   std::uint32_t lastHit_ = 0;  ///< and where its part is
   std::size_t last_ = 0;
 };
@@ -97,8 +105,30 @@ void addRects(const HitImage& image, std::uint64_t blocks, int x0, int y0, std::
   }
 }
 
+/// The box around a tile's blocks; joined to the last one if that ends where the tile begins.
+void addBox(const HitImage& image, std::uint64_t blocks, int x0, int y0, std::vector<gl::Scissor>& boxes) {
+  if (blocks == 0) return;
+  std::uint64_t columns = blocks;
+  for (const int rows : {4, 2, 1}) columns |= columns >> (rows * kTileBlocks);
+  columns &= 0xffu;
+  const int left = std::countr_zero(columns), right = std::bit_width(columns);
+  const int low = std::countr_zero(blocks) / kTileBlocks,
+            high = (std::bit_width(blocks) - 1) / kTileBlocks + 1;
+  gl::Scissor box = image.cut(x0 + left * kBlockEdge, y0 + low * kBlockEdge, (right - left) * kBlockEdge,
+                              (high - low) * kBlockEdge);
+  if (!boxes.empty() && boxes.back().x + boxes.back().width == box.x) {
+    gl::Scissor& last = boxes.back();
+    const int y = std::min(last.y, box.y);
+    last.height = std::max(last.y + last.height, box.y + box.height) - y;
+    last.y = y;
+    last.width += box.width;
+  } else {
+    boxes.push_back(box);
+  }
+}
+
 void findRowRects(const HitImage& image, int y0, PartRects& rects) {
-  rects.inner.clear(), rects.edges.clear();
+  rects.inner.clear(), rects.edges.clear(), rects.rest.clear();
   const int xEnd = image.bounds.x + image.bounds.width;
   TileParts tile;
   for (int x0 = image.bounds.x / kTileEdge * kTileEdge; x0 < xEnd; x0 += kTileEdge) {
@@ -107,6 +137,7 @@ void findRowRects(const HitImage& image, int y0, PartRects& rects) {
       const int x = x0 + k % kTileBlocks * kBlockEdge, y = y0 + k / kTileBlocks * kBlockEdge;
       tile.addBlock(image, x, y, std::uint64_t(1) << k);
     }
+    addBox(image, tile.rest(), x0, y0, rects.rest);
     for (const PartBlocks& blocks : tile.parts()) {
       addRects(image, blocks.inner, x0, y0, blocks.part, rects.inner);
       addRects(image, blocks.edges, x0, y0, blocks.part, rects.edges);
@@ -126,10 +157,11 @@ void findPartRects(std::span<const std::uint32_t> triangleParts, const gl::Sciss
     for (std::size_t i = begin; i < end; ++i)
       findRowRects(image, (firstRow + int(i)) * kTileEdge, rects.rows[i]);
   });
-  rects.inner.clear(), rects.edges.clear();
+  rects.inner.clear(), rects.edges.clear(), rects.rest.clear();
   for (const PartRects& row : rects.rows) {
     rects.inner.insert(rects.inner.end(), row.inner.begin(), row.inner.end());
     rects.edges.insert(rects.edges.end(), row.edges.begin(), row.edges.end());
+    rects.rest.insert(rects.rest.end(), row.rest.begin(), row.rest.end());
   }
   const auto byPart = [](const CoverRect& a, const CoverRect& b) { return a.item < b.item; };
   std::stable_sort(rects.inner.begin(), rects.inner.end(), byPart);

@@ -20,7 +20,8 @@ namespace catoptric::virtual_object {
 /// between that are not of the mirror.
 struct PartRects {
   std::vector<CoverRect> inner, edges;
-  std::vector<PartRects> rows;  ///< scratch
+  std::vector<gl::Scissor> rest;  ///< around the mirror's pixels at which no part is seen
+  std::vector<PartRects> rows;    ///< scratch
 };
 
 /// From the hits of `bounds` (HitShading::readHits()), the part of each triangle by its number, and the

@@ -303,9 +303,10 @@ void VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, const raster
 
 void VirtualObjectMethod::render(raster::FrameContext& frame, const raster::Chain& chain,
                                  const raster::Level& parent, raster::Level& target) {
+  rects_.rest.clear();
   const bool isComplete = drawObjects(frame, chain, parent, target);
   // 3
-  if (!isComplete) background_.draw(frame.scene, chain, parent, target);
+  if (!isComplete) background_.draw(frame.scene, chain, parent, target, true, rects_.rest);
 }
 
 }  // namespace catoptric::virtual_object
