@@ -212,6 +212,48 @@ TEST_F(Backend, picturesAreTheSame) {
   }
 }
 
+/// Both round corners to 1/256 of a pixel; what is left are pixels whose centres lie on an edge so rounded,
+/// or where two surfaces are equally near: a sliver.
+TEST_F(Backend, theProcessorDrawsTheNumbersThatGlDraws) {
+  constexpr int kSizePx = 240;
+  const reference::TracedTestScene t = makeScene();
+  renderer::RasterFrame raster(GlTest::context(), t.scene, t.world, t.environment);
+  renderer::FrameOptions options;
+  options.method = renderer::Method::Virtual;
+  options.solver = renderer::Solver::Refined;
+  options.widthPx = options.heightPx = kSizePx;
+  options.bounces = 3;
+  const auto countDifferent = [&](const renderer::Frame& a, const renderer::Frame& b, std::size_t& mirrors) {
+    std::size_t different = 0;
+    mirrors = 0;
+    for (std::size_t i = 0; i < a.seen.size(); ++i) {
+      const core::SeenPixel &p = a.seen.pixels()[i], &q = b.seen.pixels()[i];
+      if (p.bounces == 0) continue;
+      ++mirrors;
+      const vec4 change = glm::abs(a.radiance.pixels()[i] - b.radiance.pixels()[i]);
+      const bool isSame = p.object == q.object && p.bounces == q.bounces &&
+                          std::max({change.r, change.g, change.b}) < 2.0f / 255.0f;
+      different += isSame ? 0 : 1;
+    }
+    return different;
+  };
+  const scene::CameraFrame camera = t.frame(kSizePx, kSizePx);
+  raster.drawNumbersByGl(true);
+  const renderer::Frame byGl = raster.render(camera, options);
+  raster.drawNumbersByGl(false);
+  const renderer::Frame here = raster.render(camera, options);
+  std::size_t mirrors = 0;
+  const std::size_t different = countDifferent(byGl, here, mirrors);
+  std::printf("numbers of GL and of the processor: %zu of %zu mirror pixels differ\n", different, mirrors);
+  EXPECT_GT(mirrors, 5000u);
+  EXPECT_LE(different, mirrors / 500);
+  // A tenth of a pixel off is told.
+  scene::Camera turned = t.camera;
+  turned.target.x += 0.1 * 2 * std::tan(0.5 * t.camera.fovYRadians) * 3.2 / kSizePx;
+  const renderer::Frame off = raster.render(scene::makeCameraFrame(turned, kSizePx, kSizePx), options);
+  EXPECT_GT(countDifferent(byGl, off, mirrors), mirrors / 500);
+}
+
 TEST_F(Backend, aSolverWithoutAVertexShaderIsRefused) {
   const reference::TracedTestScene t = makeScene();
   renderer::RasterFrame raster(GlTest::context(), t.scene, t.world, t.environment);

@@ -106,9 +106,13 @@ void Texture::upload(int level, int layer, const void* texels) {
 }
 
 void Texture::uploadCorner(int widthTexels, int heightTexels, const void* texels) {
+  uploadRect(0, 0, widthTexels, heightTexels, texels);
+}
+
+void Texture::uploadRect(int x, int y, int widthTexels, int heightTexels, const void* texels) {
   const FormatInfo info = infoOf(format_);
   glBindTexture(GL_TEXTURE_2D, id_);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, widthTexels, heightTexels, info.format, info.type, texels);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, x, y, widthTexels, heightTexels, info.format, info.type, texels);
 }
 
 void Texture::generateMipmaps() {

@@ -45,6 +45,8 @@ class Texture {
   void upload(int level, int layer, const void* texels);
   /// Flat textures: uploads the lower left part of level 0 from packed rows, 32-bit formats as stored.
   void uploadCorner(int widthTexels, int heightTexels, const void* texels);
+  /// The same from texel (x, y) on; depths are floats.
+  void uploadRect(int x, int y, int widthTexels, int heightTexels, const void* texels);
   void generateMipmaps();
   void bind(int unit) const;
 

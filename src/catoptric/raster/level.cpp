@@ -2,6 +2,7 @@
 #include "catoptric/raster/level.h"
 
 #include <array>
+#include <span>
 
 namespace catoptric::raster {
 namespace {
@@ -31,6 +32,7 @@ Level::Level(int width, int height, bool withStencil)
       surfaces(makeFramebuffer({&radiance, &position, &weight, &ids}, &depth)),
       plain(makeFramebuffer({&radiance, &ids}, &depth)),
       plainSeen(makeFramebuffer({&radiance, &ids, &position}, &depth)),
+      plainRadiance(makeFramebuffer({&radiance}, &depth)),
       overlays(makeFramebuffer({&overlay}, &depth)),
       composed(makeFramebuffer({&radiance}, nullptr)),
       seen(makeFramebuffer({&seenPosition, &seenIds}, nullptr)) {}
@@ -41,8 +43,8 @@ void Level::clear(const gl::Scissor& drawn) {
   surfaces.bind();
   // Neighbours of what is drawn are looked at, too: are they of the same mirror?
   gl::setScissor({drawn.x - 1, drawn.y - 1, drawn.width + 2, drawn.height + 2});
-  surfaces.clearColor(
-      3, uvec4(0u));  // where they say that there is nothing, the other three are never looked at
+  // Where ids say that there is nothing, the other three are never looked at.
+  if (withIds || withSeen) surfaces.clearColor(3, uvec4(0u));
   surfaces.clearDepth();
   stencilValues = 0;
   if (hasStencil) surfaces.clearStencil();
@@ -75,6 +77,7 @@ void Level::bindAsParent(gl::Program& program) const {
 
 ComposePass::ComposePass()
     : mirrored_("raster/screen.vert", "raster/compose.frag"),
+      mirroredEverywhere_("raster/screen.vert", "raster/compose.frag", {"EVERYWHERE"}),
       overlay_("raster/screen.vert", "raster/overlay.frag") {}
 
 namespace {
@@ -92,14 +95,19 @@ void bindImages(gl::Program& program,
 
 void ComposePass::addMirrored(const Level& level, const Level& next) {
   level.composed.bind();
-  gl::setScissor(next.drawnBounds);
   gl::setDrawState({.depthTest = false, .depthWrite = false, .blend = gl::Blend::Add});
-  mirrored_.use();
-  bindImages(mirrored_, {{"u_ids", &level.ids},
-                         {"u_weight", &level.weight},
-                         {"u_nextIds", &next.ids},
-                         {"u_nextRadiance", &next.radiance}});
-  gl::drawScreen();
+  gl::Program& program = next.withIds || next.withSeen ? mirrored_ : mirroredEverywhere_;
+  program.use();
+  bindImages(program, {{"u_ids", &level.ids},
+                       {"u_weight", &level.weight},
+                       {"u_nextIds", &next.ids},
+                       {"u_nextRadiance", &next.radiance}});
+  const std::span<const gl::Scissor> rects =
+      next.drawnRects.empty() ? std::span(&next.drawnBounds, 1) : std::span(next.drawnRects);
+  for (const gl::Scissor& rect : rects) {
+    gl::setScissor(rect);
+    gl::drawScreen();
+  }
 }
 
 void ComposePass::findSeen(const Level& level, const Level* next) {

@@ -24,7 +24,9 @@ struct Level {
   /// Only its depths: every pixel will be drawn.
   void clearDepths();
   /// What is drawn into where no mirror is.
-  [[nodiscard]] const gl::Framebuffer& plainTarget() const { return withSeen ? plainSeen : plain; }
+  [[nodiscard]] const gl::Framebuffer& plainTarget() const {
+    return withSeen ? plainSeen : withIds ? plain : plainRadiance;
+  }
   /// Binds what blended surfaces are drawn into.
   void bindOverlay();
   /// Binds the stored pictures as the "parent" that the next level reads.
@@ -37,13 +39,18 @@ struct Level {
   gl::Texture seenPosition, seenIds;  ///< composed
   gl::Framebuffer surfaces;           ///< of mirrors: radiance, position, weight, ids
   gl::Framebuffer plain, plainSeen;   ///< of all else: radiance, ids; and position
+  gl::Framebuffer plainRadiance;      ///< radiance alone
   gl::Framebuffer overlays;
   gl::Framebuffer composed;  ///< radiance
   gl::Framebuffer seen;      ///< seenPosition, seenIds
   bool withSeen = true;      ///< also says what is seen at each pixel ...
   bool composesSeen = true;  ///< ... and composes that
+  /// Of the last level, if it need not say what is seen, and draws every pixel that shows a mirror: nobody
+  /// asks for its ids.
+  bool withIds = true;
   bool isLast = true;  ///< no level comes after it: its mirrors show the environment, and are shaded with it
-  gl::Scissor drawnBounds;  ///< pixels that may show something
+  gl::Scissor drawnBounds;              ///< pixels that may show something
+  std::vector<gl::Scissor> drawnRects;  ///< the same of a mirror's level, closer; empty: not known
   bool hasOverlay = false;
   int stencilValues = 0;  ///< given to mirrors so far
 };
@@ -61,7 +68,7 @@ class ComposePass {
   void addMirrored(const Level& level, const Level& next);
   void findSeen(const Level& level, const Level* next);
 
-  gl::Program mirrored_, overlay_;
+  gl::Program mirrored_, mirroredEverywhere_, overlay_;
   std::unique_ptr<gl::Program> seen_, seenLast_;  ///< made when first used
   gl::VertexArray nothing_;
 };

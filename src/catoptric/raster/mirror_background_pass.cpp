@@ -10,9 +10,8 @@ MirrorBackgroundPass::MirrorBackgroundPass()
       programSeen_("raster/screen.vert", "raster/mirror_background.frag", {"SEEN"}) {}
 
 void MirrorBackgroundPass::draw(const SceneBuffers& scene, const Chain& chain, const Level& parent,
-                                const Level& target, bool isFollowed) {
+                                const Level& target, bool isFollowed, std::span<const gl::Scissor> rects) {
   target.plainTarget().bind();
-  gl::setScissor(chain.bounds);
   gl::setDrawState({.depthTest = true, .depthEqual = true, .depthWrite = false});
   gl::Program& program = target.withSeen ? programSeen_ : program_;
   program.use();
@@ -22,7 +21,11 @@ void MirrorBackgroundPass::draw(const SceneBuffers& scene, const Chain& chain, c
   program.set("u_chain", chain.id);
   program.set("u_objectWord", isFollowed ? 0u : kUnfollowedBit);
   nothing_.bind();
-  gl::drawScreen();
+  if (rects.empty()) rects = {&chain.bounds, 1};
+  for (const gl::Scissor& rect : rects) {
+    gl::setScissor(rect);
+    gl::drawScreen();
+  }
 }
 
 }  // namespace catoptric::raster

@@ -80,9 +80,10 @@ class ReflectionMethod {
 class MirrorBackgroundPass {
  public:
   MirrorBackgroundPass();
-  /// `isFollowed`: false for a mirror that no method draws. What is seen there is the mirror.
+  /// `isFollowed`: false for a mirror that no method draws. What is seen there is the mirror. `rects`: where
+  /// it may show; empty: anywhere in the chain's bounds.
   void draw(const SceneBuffers& scene, const Chain& chain, const Level& parent, const Level& target,
-            bool isFollowed = true);
+            bool isFollowed = true, std::span<const gl::Scissor> rects = {});
 
  private:
   gl::Program program_, programSeen_;

@@ -66,19 +66,29 @@ struct Judge {
 
 }  // namespace
 
-void markVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
+void dropVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
                           std::span<const vec3> virtualPositions, std::span<const VertexKind> kinds,
-                          std::span<const vec3> reflectionPoints, VirtualTriangles& out,
+                          std::span<const vec3> reflectionPoints, std::span<std::uint8_t> isKept,
                           std::span<const vec3> scenePoints, float longestChord) {
   if (scenePoints.empty()) scenePoints = objects.positions;
   assert(scenePoints.size() == objects.positions.size());
   assert(virtualPositions.size() == objects.positions.size() && kinds.size() == objects.positions.size());
   assert(reflectionPoints.size() == objects.positions.size());
   const Judge judge{scenePoints, virtualPositions, reflectionPoints, kinds, vec3(eye), longestChord};
-  out.isKept.resize(objects.indices.size() / 3);
-  core::parallelFor(out.isKept.size(), kTrianglesPerTask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) out.isKept[t] = judge.keeps(&objects.indices[3 * t]);
+  assert(isKept.size() == objects.indices.size() / 3);
+  core::parallelFor(isKept.size(), kTrianglesPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t)
+      if (isKept[t] && !judge.keeps(&objects.indices[3 * t])) isKept[t] = 0;
   });
+}
+
+void markVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
+                          std::span<const vec3> virtualPositions, std::span<const VertexKind> kinds,
+                          std::span<const vec3> reflectionPoints, VirtualTriangles& out,
+                          std::span<const vec3> scenePoints, float longestChord) {
+  out.isKept.assign(objects.indices.size() / 3, 1);
+  dropVirtualTriangles(objects, eye, virtualPositions, kinds, reflectionPoints, out.isKept, scenePoints,
+                       longestChord);
 }
 
 void selectVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,

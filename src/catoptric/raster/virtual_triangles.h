@@ -36,9 +36,17 @@ void selectVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
                             std::span<const vec3> reflectionPoints, VirtualTriangles& out,
                             std::span<const vec3> scenePoints = {});
 
-/// Sets out.isKept alone. `longestChord`, of a mirror without a boundary: a triangle with a doubly virtual
+/// Clears `isKept` of those, by triangle of the objects; what it is clear of already is not looked at.
+/// `longestChord`, of a mirror without a boundary: a triangle with a doubly virtual
 /// corner has no two reflection points farther apart. It reaches around the reflector's shadow, and drawn it
 /// would cut off the rim along that chord, where what it may show is a ring much thinner than a pixel.
+void dropVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
+                          std::span<const vec3> virtualPositions, std::span<const VertexKind> kinds,
+                          std::span<const vec3> reflectionPoints, std::span<std::uint8_t> isKept,
+                          std::span<const vec3> scenePoints = {},
+                          float longestChord = std::numeric_limits<float>::infinity());
+
+/// Sets out.isKept alone: of all triangles, but for those.
 void markVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
                           std::span<const vec3> virtualPositions, std::span<const VertexKind> kinds,
                           std::span<const vec3> reflectionPoints, VirtualTriangles& out,

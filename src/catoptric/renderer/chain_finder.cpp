@@ -2,41 +2,51 @@
 #include "catoptric/renderer/chain_finder.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
+
+#include "catoptric/core/parallel.h"
 
 namespace catoptric::renderer {
 namespace {
 
 constexpr std::uint32_t kMaxChains = 4096;  // ids have 16 bits for a chain
 
-/// Where on the screen a mirror is.
-struct Extent {
-  int x0 = std::numeric_limits<int>::max(), y0 = std::numeric_limits<int>::max(), x1 = -1, y1 = -1;
-  std::uint64_t pixels = 0;
-};
+constexpr int kRowsEach = 16, kColumnsEach = 4;
 
-/// Of all mirrors within `bounds`, by ids.g.
-std::map<std::uint32_t, Extent> findExtents(std::span<const uvec2> ids, int width,
-                                            const gl::Scissor& bounds) {
-  std::map<std::uint32_t, Extent> extents;
-  std::uint32_t lastWord = 0;
-  Extent* lastExtent = nullptr;
-  for (int y = bounds.y; y < bounds.y + bounds.height; ++y)
-    for (int x = bounds.x; x < bounds.x + bounds.width; ++x) {
-      const std::uint32_t word = ids[std::size_t(y) * std::size_t(width) + std::size_t(x)].y;
+using Extent = ChainFinder::Extent;
+
+void addTo(std::map<std::uint32_t, Extent>& extents, std::uint32_t word, const Extent& more) {
+  const auto [at, isNew] = extents.try_emplace(word, more);
+  if (isNew) return;
+  Extent& e = at->second;
+  e = {std::min(e.x0, more.x0), std::min(e.y0, more.y0), std::max(e.x1, more.x1), std::max(e.y1, more.y1),
+       e.pixels + more.pixels};
+}
+
+/// All mirrors within `bounds`, not many rows; `isShown` is scratch.
+void searchRows(std::span<const uvec2> ids, int width, const gl::Scissor& bounds,
+                std::vector<std::uint8_t>& isShown, ChainFinder::Rows& rows) {
+  rows.extents.clear(), rows.rects.clear();
+  const int xEnd = bounds.x + bounds.width;
+  isShown.assign(std::size_t(xEnd / kColumnsEach + 2), 0);
+  for (int y = bounds.y; y < bounds.y + bounds.height; ++y) {
+    const uvec2* row = ids.data() + std::ptrdiff_t(y) * width;
+    for (int x = bounds.x; x < xEnd;) {
+      const std::uint32_t word = row[x].y;
+      const int first = x;
+      while (x < xEnd && row[x].y == word) ++x;
       if ((word & 0xffffu) == 0) continue;
-      if (!lastExtent || word != lastWord) {
-        lastExtent = &extents[word];
-        lastWord = word;
-      }
-      lastExtent->x0 = std::min(lastExtent->x0, x);
-      lastExtent->x1 = std::max(lastExtent->x1, x);
-      lastExtent->y0 = std::min(lastExtent->y0, y);
-      lastExtent->y1 = std::max(lastExtent->y1, y);
-      ++lastExtent->pixels;
+      addTo(rows.extents, word, {first, y, x - 1, y, std::uint64_t(x - first)});
+      std::fill(isShown.begin() + first / kColumnsEach, isShown.begin() + (x - 1) / kColumnsEach + 1, 1);
     }
-  return extents;
+  }
+  for (std::size_t i = 0; i < isShown.size(); ++i) {
+    if (!isShown[i]) continue;
+    const std::size_t first = i;
+    while (isShown[i]) ++i;
+    const int x0 = std::max(int(first) * kColumnsEach, bounds.x), x1 = std::min(int(i) * kColumnsEach, xEnd);
+    rows.rects.push_back({x0, bounds.y, x1 - x0, bounds.height});
+  }
 }
 
 }  // namespace
@@ -46,8 +56,25 @@ VisibleMirrors ChainFinder::find(const raster::Level& level, const std::vector<r
   const int width = level.widthPx;
   ids_.resize(std::size_t(width) * std::size_t(level.heightPx));
   level.surfaces.readPixelsInPlace(3, level.drawnBounds, std::span<uvec2>(ids_));
+  const gl::Scissor& all = level.drawnBounds;
+  // Rows of pixels that rasterizers draw together.
+  const int firstRow = all.y / kRowsEach, rowEnd = (all.y + all.height + kRowsEach - 1) / kRowsEach;
+  rows_.resize(std::size_t(std::max(rowEnd - firstRow, 0)));
+  core::parallelFor(rows_.size(), 4, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint8_t> isShown;
+    for (std::size_t i = begin; i < end; ++i) {
+      const int y0 = std::max((firstRow + int(i)) * kRowsEach, all.y);
+      const int y1 = std::min((firstRow + int(i) + 1) * kRowsEach, all.y + all.height);
+      searchRows(ids_, width, {all.x, y0, all.width, y1 - y0}, isShown, rows_[i]);
+    }
+  });
   VisibleMirrors mirrors;
-  for (const auto& [word, extent] : findExtents(ids_, width, level.drawnBounds)) {
+  std::map<std::uint32_t, Extent> extents;
+  for (const Rows& rows : rows_) {
+    for (const auto& [word, extent] : rows.extents) addTo(extents, word, extent);
+    mirrors.rects.insert(mirrors.rects.end(), rows.rects.begin(), rows.rects.end());
+  }
+  for (const auto& [word, extent] : extents) {
     const auto parent = std::find_if(parents.begin(), parents.end(),
                                      [id = word >> 16](const raster::Chain& c) { return c.id == id; });
     const std::uint32_t reflector = (word & 0xffffu) - 1u;

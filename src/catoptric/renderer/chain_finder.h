@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct VisibleMirrors {
   /// Of more bounces or crossings than are asked for, or more than ids can tell apart: they show the
   /// environment.
   std::vector<raster::Chain> unfollowed;
+  std::vector<gl::Scissor> rects;  ///< that hold the pixels of all of them, and few others
 };
 
 class ChainFinder {
@@ -31,9 +33,21 @@ class ChainFinder {
   /// Of the last level, bottom row first; only where something is drawn.
   [[nodiscard]] std::span<const uvec2> ids() const { return ids_; }
 
+  /// Where on the screen a mirror is.
+  struct Extent {
+    int x0, y0, x1, y1;
+    std::uint64_t pixels;
+  };
+  /// What is found in some rows of pixels; by ids.g.
+  struct Rows {
+    std::map<std::uint32_t, Extent> extents;
+    std::vector<gl::Scissor> rects;
+  };
+
  private:
   const scene::WorldGeometry& world_;
   std::vector<uvec2> ids_;
+  std::vector<Rows> rows_;
   std::uint32_t lastChain_ = 0;
 };
 

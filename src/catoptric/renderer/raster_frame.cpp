@@ -101,7 +101,8 @@ RasterFrame::RasterFrame(gl::Context& context, const scene::Scene& scene,
       chains_(geometry),
       primary_(surfaces_),
       exact_(hits_),
-      virtual_(virtual_object::Solver::Refined, hits_, exact_) {
+      virtual_(virtual_object::Solver::Refined, hits_, exact_),
+      numbersByGl_(!context.isSoftware()) {
   if (geometry.reflectors.size() >= 0xffffu)
     throw core::Error("renderer.reflectors", "the scene has more than 65534 mirrors", {},
                       "use --reflector NAME to pick some");
@@ -218,6 +219,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   levels_[0]->withSeen = options.withSeen || options.drawsSeen;
   levels_[0]->composesSeen = options.withSeen;
   levels_[0]->isLast = mostLevels == 0;
+  levels_[0]->withIds = mostLevels > 0;
   std::future<void> levelsOfDetail;  // made while GL compiles and draws, once a scene
   if (mostLevels > 0 && needsLevelsOfDetail(options))
     levelsOfDetail = std::async(std::launch::async, [this] { static_cast<void>(scene_.levels()); });
@@ -243,10 +245,12 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
     prepareLevels(level + 2, options);
     // 3, 4
     raster::Level& target = *levels_[std::size_t(level) + 1];
-    target.clear(findUnion(mirrors));
     target.withSeen = options.withSeen || options.drawsSeen;
     target.composesSeen = options.withSeen;
     target.isLast = level + 1 == mostLevels;
+    target.withIds = !target.isLast || options.merge != Merge::Ids;
+    target.clear(findUnion(mirrors));
+    target.drawnRects = std::move(mirrors.rects);
     for (const raster::Chain& chain : mirrors.chains) {
       raster::ReflectionMethod* method = pickMethod(chain, options);
       if (method)
@@ -359,7 +363,7 @@ Frame RasterFrame::render(const scene::CameraFrame& camera, const FrameOptions& 
   Frame frame;
   const int samples = std::max(1, options.samples);
   prepareLevels(1, options);
-  virtual_.setSolver(virtualObjectSolver(options.solver), findsVerticesOnGpu(options));
+  virtual_.setSolver(virtualObjectSolver(options.solver), findsVerticesOnGpu(options), numbersByGl_);
   if (options.method == Method::Morphing) prepareMorphing(camera.eye, options);
   zexel_.setOptions(options.zexel);
   if (options.method == Method::Zexel) prepareZexels(options);

@@ -37,6 +37,9 @@ class RasterFrame {
                                                  const ElsewhereOptions& options);
   void saveReferenceImages() { zexel_.saveCacheFile(); }
 
+  /// VirtualObjectMethod::setSolver(); where GL runs in software it draws none unless it is told to.
+  void drawNumbersByGl(bool byGl) { numbersByGl_ = byGl; }
+
  private:
   void prepareLevels(int count, const FrameOptions& options);
   /// Does the frame ask for scene_.levels(), which are not there yet?
@@ -82,6 +85,7 @@ class RasterFrame {
   depth_reflection_map::DepthReflectionMapMethod zexel_;
   std::string zexelFile_;  ///< that zexel_ was given
   bool hasMoved_ = false;
+  bool numbersByGl_;
   /// All of them, in no order that matters.
   std::array<raster::ReflectionMethod*, 7> methods_{&planar_,      &virtual_,   &exact_,   &zexel_,
                                                     &environment_, &smallMaps_, &morphing_};

@@ -121,6 +121,12 @@ void HitShading::readHits(const gl::Scissor& bounds, std::vector<uvec2>& hits) c
   targets_->hitTests.readPixels(0, bounds, std::span<uvec2>(hits));
 }
 
+void HitShading::uploadHits(const gl::Scissor& bounds, std::span<const uvec2> hits,
+                            std::span<const float> depths) {
+  targets_->hits.uploadRect(bounds.x, bounds.y, bounds.width, bounds.height, hits.data());
+  targets_->depth.uploadRect(bounds.x, bounds.y, bounds.width, bounds.height, depths.data());
+}
+
 void HitShading::bindInputs(gl::Program& program, const raster::Level& parent,
                             const raster::Chain& chain) const {
   bindImages(program, {{"u_parentIds", &parent.ids, kUnitParentIds},

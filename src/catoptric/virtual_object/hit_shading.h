@@ -62,6 +62,8 @@ class HitShading {
   void continueHits(const gl::Scissor& bounds) const;
   /// Triangle + 1 and bits of a length at each pixel of `bounds`, row by row.
   void readHits(const gl::Scissor& bounds, std::vector<uvec2>& hits) const;
+  /// Step 2 done by the processor (number_raster.h): the hits of `bounds` and their depths, row by row.
+  void uploadHits(const gl::Scissor& bounds, std::span<const uvec2> hits, std::span<const float> depths);
   /// The rays, hits and triangles, for a program in use.
   void bindInputs(gl::Program& program, const raster::Level& parent, const raster::Chain& chain) const;
 

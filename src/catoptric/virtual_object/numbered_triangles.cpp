@@ -12,25 +12,8 @@
 namespace catoptric::virtual_object {
 namespace {
 
-constexpr int kTileEdge = 16;
 constexpr float kSnap = 1.0f / 32;  // rasterizers round corners to 1/16 of a pixel at worst, most to 1/256
 constexpr std::size_t kVerticesPerTask = 16384, kTrianglesPerTask = 4096;
-
-/// Pixels of one part within a tile.
-struct Extent {
-  std::uint32_t part;
-  int x0, y0, x1, y1;
-};
-
-void addPixel(std::vector<Extent>& extents, std::uint32_t part, int x, int y) {
-  for (Extent& e : extents)
-    if (e.part == part) {
-      e.x0 = std::min(e.x0, x), e.x1 = std::max(e.x1, x);
-      e.y1 = y;
-      return;
-    }
-  extents.push_back({part, x, y, x, y});
-}
 
 /// Is the point outside of a triangle whose corners may be `kSnap` away from where they are said to be?
 /// `turn`: the sign of its area.
@@ -58,8 +41,9 @@ bool mayBeSeen(const std::array<vec2, 3>& p, float facing, const vec2& lower, co
   return first != last || !isOutside(p, area < 0.0f ? -1.0f : 1.0f, first + 0.5f);
 }
 
-/// To pixels; NaN before the eye's plane.
-void projectVertices(const PictureView& view, std::span<const vec3> positions, std::vector<vec2>& screen) {
+}  // namespace
+
+void projectVertices(const PictureView& view, std::span<const vec3> positions, std::vector<vec3>& screen) {
   const mat4& m = view.clipFromDraw;
   const vec2 half(0.5f * float(view.widthPx), 0.5f * float(view.heightPx));
   screen.resize(positions.size());
@@ -70,12 +54,10 @@ void projectVertices(const PictureView& view, std::span<const vec3> positions, s
       const float y = m[0].y * p.x + m[1].y * p.y + m[2].y * p.z + m[3].y;
       const float w = m[0].w * p.x + m[1].w * p.y + m[2].w * p.z + m[3].w;
       const float inverse = w > 0.0f ? 1.0f / w : std::numeric_limits<float>::quiet_NaN();
-      screen[i] = half * (vec2(x, y) * inverse + 1.0f);
+      screen[i] = vec3(half * (vec2(x, y) * inverse + 1.0f), inverse);
     }
   });
 }
-
-}  // namespace
 
 NumberedMesh makeNumberedMesh(const raster::TessellatedObjects& objects) {
   NumberedMesh mesh;
@@ -106,43 +88,9 @@ NumberedMesh makeNumberedMesh(const raster::TessellatedObjects& objects) {
   return mesh;
 }
 
-void findPartRects(std::span<const std::uint32_t> triangleParts, const gl::Scissor& bounds,
-                   std::span<const uvec2> hits, std::span<const uvec2> parentIds, int widthPx,
-                   std::uint32_t parentWord, PartRects& rects) {
-  rects.inner.clear();
-  rects.edges.clear();
-  std::vector<Extent> extents;
-  // Tiles begin at even pixels, so that the 2x2 pixels that are shaded together lie in one of them.
-  const int xEnd = bounds.x + bounds.width, yEnd = bounds.y + bounds.height;
-  for (int y0 = bounds.y & ~1; y0 < yEnd; y0 += kTileEdge)
-    for (int x0 = bounds.x & ~1; x0 < xEnd; x0 += kTileEdge) {
-      extents.clear();
-      bool isInner = x0 >= bounds.x && y0 >= bounds.y;
-      const int x1 = std::min(x0 + kTileEdge, xEnd), y1 = std::min(y0 + kTileEdge, yEnd);
-      isInner = isInner && (x1 & 1) == 0 && (y1 & 1) == 0;
-      for (int y = std::max(y0, bounds.y); y < y1; ++y)
-        for (int x = std::max(x0, bounds.x); x < x1; ++x) {
-          const std::uint32_t hit =
-              hits[std::size_t(y - bounds.y) * std::size_t(bounds.width) + std::size_t(x - bounds.x)].x;
-          isInner =
-              isInner && parentIds[std::size_t(y) * std::size_t(widthPx) + std::size_t(x)].y == parentWord;
-          if (hit != 0) addPixel(extents, triangleParts[hit - 1], x, y);
-        }
-      for (const Extent& e : extents)
-        (isInner ? rects.inner : rects.edges)
-            .push_back({std::uint16_t(e.x0), std::uint16_t(e.y0), std::uint16_t(e.x1 - e.x0 + 1),
-                        std::uint16_t(e.y1 - e.y0 + 1), e.part});
-    }
-  const auto byPart = [](const CoverRect& a, const CoverRect& b) { return a.item < b.item; };
-  std::stable_sort(rects.inner.begin(), rects.inner.end(), byPart);
-  std::stable_sort(rects.edges.begin(), rects.edges.end(), byPart);
-}
-
 std::size_t dropUnseenTriangles(const raster::TessellatedObjects& objects, const scene::WorldGeometry& world,
                                 const PictureView& view, const gl::Scissor& bounds,
-                                std::span<const vec3> virtualPositions, std::vector<vec2>& screen,
-                                std::span<std::uint8_t> isKept) {
-  projectVertices(view, virtualPositions, screen);
+                                std::span<const vec3> screen, std::span<std::uint8_t> isKept) {
   const vec2 lower(bounds.x, bounds.y), upper = lower + vec2(bounds.width, bounds.height);
   std::atomic<std::size_t> dropped{0};
   for (const raster::TessellatedPart& part : objects.parts) {
@@ -154,7 +102,8 @@ std::size_t dropUnseenTriangles(const raster::TessellatedObjects& objects, const
       for (std::size_t t = part.firstIndex / 3 + begin; t < part.firstIndex / 3 + end; ++t) {
         if (!isKept[t]) continue;
         const std::uint32_t* v = &objects.indices[3 * t];
-        if (mayBeSeen({screen[v[0]], screen[v[1]], screen[v[2]]}, facing, lower, upper)) continue;
+        if (mayBeSeen({vec2(screen[v[0]]), vec2(screen[v[1]]), vec2(screen[v[2]])}, facing, lower, upper))
+          continue;
         isKept[t] = 0;
         ++count;
       }

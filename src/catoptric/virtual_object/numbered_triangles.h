@@ -38,19 +38,6 @@ struct NumberedMesh {
 };
 [[nodiscard]] NumberedMesh makeNumberedMesh(const raster::TessellatedObjects& objects);
 
-/// Pixels at which parts are seen, in the order of parts: small rectangles. `edges`: those with pixels in
-/// between that are not of the mirror.
-struct PartRects {
-  std::vector<CoverRect> inner, edges;
-};
-
-/// From the hits of `bounds` (HitShading::readHits()), the part of each triangle by its number, and the
-/// level's ids (FrameContext::parentIds), whose rows are `widthPx` long; pixels of the mirror have the word
-/// `parentWord`.
-void findPartRects(std::span<const std::uint32_t> triangleParts, const gl::Scissor& bounds,
-                   std::span<const uvec2> hits, std::span<const uvec2> parentIds, int widthPx,
-                   std::uint32_t parentWord, PartRects& rects);
-
 /// How virtual vertices get to the pixels of a picture.
 struct PictureView {
   mat4 clipFromDraw{1.0f};
@@ -59,13 +46,15 @@ struct PictureView {
   bool isEitherSide = false;    ///< winding says nothing of fronts
 };
 
+/// Virtual vertices: pixels and 1 / w; NaN where they do not lie before the eye.
+void projectVertices(const PictureView& view, std::span<const vec3> virtualPositions,
+                     std::vector<vec3>& screen);
+
 /// Clears `isKept` of triangles in which no pixel of `bounds` has its centre, and of those that turn their
-/// back to the eye (where their part has none). How many there were. `screen` is scratch: virtual vertices in
-/// pixels.
+/// back to the eye (where their part has none). How many there were. `screen`: projectVertices().
 std::size_t dropUnseenTriangles(const raster::TessellatedObjects& objects, const scene::WorldGeometry& world,
                                 const PictureView& view, const gl::Scissor& bounds,
-                                std::span<const vec3> virtualPositions, std::vector<vec2>& screen,
-                                std::span<std::uint8_t> isKept);
+                                std::span<const vec3> screen, std::span<std::uint8_t> isKept);
 
 class NumberedTriangles {
  public:

@@ -67,7 +67,7 @@ void VirtualObjectMethod::partsMoved(const scene::WorldGeometry& world,
     prepared->movedParts.insert(prepared->movedParts.end(), parts.begin(), parts.end());
 }
 
-/// For markVirtualTriangles(): the chord whose sag is a pixel, where the mirror covers the pixels that it was
+/// For dropVirtualTriangles(): the chord whose sag is a pixel, where the mirror covers the pixels that it was
 /// prepared for.
 float VirtualObjectMethod::findLongestChord(const Prepared& p) {
   if (p.mesh.ordinaryCount() != p.mesh.triangles().size()) return std::numeric_limits<float>::infinity();
@@ -240,27 +240,63 @@ raster::SurfaceView VirtualObjectMethod::makeView(const raster::FrameContext& fr
   return view;
 }
 
-void VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, const raster::Chain& chain,
-                                       const raster::SurfaceView& view, Prepared& p, raster::Level& target) {
-  const scene::WorldGeometry& world = frame.scene.geometry();
-  if (!p.numbered) p.numbered = std::make_unique<NumberedTriangles>(p.objects);
-  raster::markVirtualTriangles(p.objects, view.drawEye, p.virtualPositions, p.kinds, p.reflectionPoints,
-                               triangles_, {}, findLongestChord(p));
+/// Which triangles are drawn: the cheap question first.
+void VirtualObjectMethod::markTriangles(raster::FrameContext& frame, const raster::Chain& chain,
+                                        const raster::SurfaceView& view, const Prepared& p) {
   const PictureView picture{mat4(view.clipFromDraw), view.parent->widthPx, view.parent->heightPx,
                             view.windingFlipped};
-  frame.counters.culledTriangles += dropUnseenTriangles(p.objects, world, picture, chain.bounds,
-                                                        p.virtualPositions, screen_, triangles_.isKept);
+  triangles_.isKept.assign(p.objects.indices.size() / 3, 1);
+  projectVertices(picture, p.virtualPositions, screen_);
+  frame.counters.culledTriangles += dropUnseenTriangles(p.objects, frame.scene.geometry(), picture,
+                                                        chain.bounds, screen_, triangles_.isKept);
+  raster::dropVirtualTriangles(p.objects, view.drawEye, p.virtualPositions, p.kinds, p.reflectionPoints,
+                               triangles_.isKept, {}, findLongestChord(p));
+}
+
+void VirtualObjectMethod::drawNumbersByGl(raster::FrameContext& frame, const raster::Chain& chain,
+                                          const raster::SurfaceView& view, Prepared& p) {
+  if (!p.numbered) p.numbered = std::make_unique<NumberedTriangles>(p.objects);
   raster::gatherVirtualTriangles(p.objects, p.numbered->indices(), p.isNumbered, triangles_);
   frame.counters.virtualTriangles += triangles_.indices.size() / 3;
   ranges_.clear();
   for (const raster::TessellatedPart& part : triangles_.parts)
     if (part.indexCount > 0) ranges_.push_back({part.part, part.firstIndex, part.indexCount});
-
-  shading_.prepare(frame.scene, *view.parent);
   shading_.beginHits(chain.bounds);
   p.numbered->draw(frame, view, numberProgram_, p.virtualPositions, triangles_.indices, ranges_);
-  shading_.readHits(chain.bounds, hits_);
-  findPartRects(frame.scene.levels().triangleParts(), chain.bounds, hits_, frame.parentIds,
+  shading_.readHits(chain.bounds, numbers_.hits);
+}
+
+void VirtualObjectMethod::drawNumbersHere(raster::FrameContext& frame, const raster::Chain& chain,
+                                          const raster::SurfaceView& view, const Prepared& p) {
+  const raster::Level& parent = *view.parent;
+  mirrorPositions_.resize(std::size_t(chain.bounds.width) * std::size_t(chain.bounds.height));
+  parent.surfaces.readPixels(1, chain.bounds, std::span<vec4>(mirrorPositions_));
+  const NumberPicture picture{.clipFromDraw = mat4(view.clipFromDraw),
+                              .drawEye = view.drawEye,
+                              .widthPx = parent.widthPx,
+                              .heightPx = parent.heightPx,
+                              .bounds = chain.bounds,
+                              .mirror = mirrorPositions_,
+                              .parentIds = frame.parentIds,
+                              .parentWord = chain.parentWord(),
+                              .screen = screen_,
+                              .virtualPositions = p.virtualPositions,
+                              .isKept = triangles_.isKept,
+                              .isWanted = p.isNumbered,
+                              .triangleParts = frame.scene.levels().triangleParts()};
+  frame.counters.virtualTriangles += raster_.draw(p.objects, picture, numbers_);
+  shading_.uploadHits(chain.bounds, numbers_.hits, numbers_.depths);
+}
+
+void VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, const raster::Chain& chain,
+                                       const raster::SurfaceView& view, Prepared& p, raster::Level& target) {
+  markTriangles(frame, chain, view, p);
+  shading_.prepare(frame.scene, *view.parent);
+  if (numbersByGl_)
+    drawNumbersByGl(frame, chain, view, p);
+  else
+    drawNumbersHere(frame, chain, view, p);
+  findPartRects(frame.scene.levels().triangleParts(), chain.bounds, numbers_.hits, frame.parentIds,
                 view.parent->widthPx, chain.parentWord(), rects_);
   shading_.shadeVirtual(frame, chain, *view.parent, target, false, rects_.inner);
   shading_.shadeVirtual(frame, chain, *view.parent, target, true, rects_.edges);
@@ -272,9 +308,10 @@ void VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, const raster
 
 void VirtualObjectMethod::render(raster::FrameContext& frame, const raster::Chain& chain,
                                  const raster::Level& parent, raster::Level& target) {
+  rects_.rest.clear();
   const bool isComplete = drawObjects(frame, chain, parent, target);
   // 3
-  if (!isComplete) background_.draw(frame.scene, chain, parent, target);
+  if (!isComplete) background_.draw(frame.scene, chain, parent, target, true, rects_.rest);
 }
 
 }  // namespace catoptric::virtual_object

@@ -18,7 +18,9 @@
 #include "catoptric/virtual_object/mixed/part_image.h"
 #include "catoptric/virtual_object/mixed/part_pixels.h"
 #include "catoptric/virtual_object/mixed/view_forecast.h"
+#include "catoptric/virtual_object/number_raster.h"
 #include "catoptric/virtual_object/numbered_triangles.h"
+#include "catoptric/virtual_object/part_rects.h"
 #include "catoptric/virtual_object/reflector_mesh.h"
 #include "catoptric/virtual_object/virtual_object_solver.h"
 
@@ -34,9 +36,12 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     return chain.curved.has_value() && !chain.hasSecondCurved && !chain.hasRefractor();
   }
   /// `onGpu`: where the solver has a vertex shader and the mirror fits into textures.
-  void setSolver(Solver solver, bool onGpu = false) {
+  /// `numbersByGl`: where the processor finds virtual vertices, does GL draw their numbers
+  /// (numbered_triangles.h), or the processor as well (number_raster.h)?
+  void setSolver(Solver solver, bool onGpu = false, bool numbersByGl = true) {
     solver_ = solver;
     onGpu_ = onGpu;
+    numbersByGl_ = numbersByGl;
   }
   void prepare(raster::FrameContext&) override { last_.clear(); }
   void geometryChanged() override {
@@ -165,6 +170,12 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   /// What of the scene is blended is sorted by its virtual vertices, which the processor finds.
   void drawBlended(raster::FrameContext& frame, const raster::Chain& chain, const raster::SurfaceView& view,
                    Prepared& prepared, raster::Level& target);
+  void markTriangles(raster::FrameContext& frame, const raster::Chain& chain, const raster::SurfaceView& view,
+                     const Prepared& prepared);
+  void drawNumbersByGl(raster::FrameContext& frame, const raster::Chain& chain,
+                       const raster::SurfaceView& view, Prepared& prepared);
+  void drawNumbersHere(raster::FrameContext& frame, const raster::Chain& chain,
+                       const raster::SurfaceView& view, const Prepared& prepared);
   void drawNumbered(raster::FrameContext& frame, const raster::Chain& chain, const raster::SurfaceView& view,
                     Prepared& prepared, raster::Level& target);
 
@@ -188,7 +199,7 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
                 std::uint32_t number, InParts::Part& part, Prepared& prepared);
 
   Solver solver_;
-  bool onGpu_ = false;
+  bool onGpu_ = false, numbersByGl_ = true;
   std::map<Solver, std::unique_ptr<raster::SurfacePass>> gpuSurfaces_;  ///< by solver, made when first needed
   HitShading& shading_;
   ExactMethod& exact_;
@@ -199,8 +210,10 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   gl::Program numberProgram_{"virtual_object/virtual_triangle.vert", "virtual_object/virtual_triangle.frag"};
   raster::VirtualTriangles triangles_;
   std::vector<raster::DrawRange> ranges_;
-  std::vector<uvec2> hits_;
-  std::vector<vec2> screen_;
+  std::vector<vec3> screen_;
+  std::vector<vec4> mirrorPositions_;
+  NumberRaster raster_;
+  NumberImage numbers_;
   PartRects rects_;
   raster::MirrorBackgroundPass background_;
   /// By reflector, whether it is seen from behind, whether flat mirrors stand behind it, size of the

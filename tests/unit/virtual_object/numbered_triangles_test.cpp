@@ -8,6 +8,8 @@
 #include <array>
 #include <random>
 
+#include "catoptric/virtual_object/part_rects.h"
+
 namespace catoptric::virtual_object {
 namespace {
 
@@ -87,8 +89,9 @@ struct Crumbs {
   }
 
   std::size_t drop() {
-    std::vector<vec2> screen;
-    return dropUnseenTriangles(objects, world, view, bounds, positions, screen, isKept);
+    std::vector<vec3> screen;
+    projectVertices(view, positions, screen);
+    return dropUnseenTriangles(objects, world, view, bounds, screen, isKept);
   }
 
   /// Does a rasterizer draw the triangle at a pixel of the bounds?

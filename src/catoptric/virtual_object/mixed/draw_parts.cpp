@@ -95,8 +95,9 @@ void VirtualObjectMethod::drawPart(raster::FrameContext& frame, const raster::Su
     markPartTriangles(world, p);
   const PictureView picture{mat4(view.clipFromDraw), view.parent->widthPx, view.parent->heightPx,
                             view.windingFlipped, !isConvex};
+  projectVertices(picture, p.virtualPositions, screen_);
   frame.counters.culledTriangles +=
-      dropUnseenTriangles(p.objects, world, picture, bounds, p.virtualPositions, screen_, triangles_.isKept);
+      dropUnseenTriangles(p.objects, world, picture, bounds, screen_, triangles_.isKept);
   raster::gatherVirtualTriangles(p.objects, p.numbered->indices(), p.isNumbered, triangles_);
   frame.counters.virtualTriangles += triangles_.indices.size() / 3;
   ranges_.clear();
@@ -181,16 +182,16 @@ void VirtualObjectMethod::drawInParts(raster::FrameContext& frame, const raster:
   const RayImages& rays = exact_.findRays(frame, chain, parent);
   drawPartNumbers(frame, chain, view, p);
   // 3
-  shading_.readHits(chain.bounds, hits_);
-  isDone_.resize(hits_.size());
-  const std::size_t done = checkPixels(world, rays, chain.bounds, chain.parentWord(), hits_, isDone_);
+  shading_.readHits(chain.bounds, numbers_.hits);
+  isDone_.resize(numbers_.hits.size());
+  const std::size_t done = checkPixels(world, rays, chain.bounds, chain.parentWord(), numbers_.hits, isDone_);
   frame.counters.virtualPixels += done;
   frame.counters.boundedPixels += chain.pixels - done;
   partImage_->setDone(chain.bounds, isDone_);
   shading_.continueHits(chain.bounds);
   partImage_->dropHits(chain.bounds);
-  findPartRects(world.triangleParts, chain.bounds, hits_, frame.parentIds, parent.widthPx, chain.parentWord(),
-                rects_);
+  findPartRects(world.triangleParts, chain.bounds, numbers_.hits, frame.parentIds, parent.widthPx,
+                chain.parentWord(), rects_);
   shading_.shadeVirtual(frame, chain, parent, target, false, rects_.inner);
   shading_.shadeVirtual(frame, chain, parent, target, true, rects_.edges);
   // 4
