@@ -15,9 +15,7 @@ namespace {
 constexpr float kMapEdge = 256;  // a map's own size
 
 std::string describeShape(const scene::Reflector& reflector) {
-  const bool isFreeForm = reflector.shape == scene::ReflectorShape::Extrusion ||
-                          reflector.shape == scene::ReflectorShape::Quadric ||
-                          reflector.shape == scene::ReflectorShape::Mesh;
+  const bool isFreeForm = reflector.shape >= scene::ReflectorShape::Extrusion;
   return (isFreeForm && reflector.isConvex ? "convex " : "") + std::string(scene::shapeName(reflector.shape));
 }
 

@@ -9,7 +9,7 @@ import support
 
 BUILT_IN = {"four-spheres", "cylinder", "fender", "polyhedra-and-sphere", "checker-box", "hall-of-mirrors",
             "drivers-view", "concave-bowl", "mask", "mixed", "tv", "cone", "vase", "wavy-wall",
-            "lenses", "columns", "teapot", "facing-mirrors", "reflector-sweep", "object-sweep"}
+            "lenses", "columns", "teapot", "facing-mirrors", "dome", "reflector-sweep", "object-sweep"}
 
 
 class Info(support.CommandTest):
@@ -83,6 +83,7 @@ class Scenes(support.CommandTest):
         self.assertEqual(shapes["fender"], {"mesh"})
         self.assertEqual(shapes["concave-bowl"], {"sphere"})
         self.assertEqual(shapes["cone"], {"cone"})
+        self.assertEqual(shapes["dome"], {"aspheric", "torus"})
 
 
 if __name__ == "__main__":

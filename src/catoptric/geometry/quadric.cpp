@@ -118,14 +118,9 @@ std::optional<QuadricFit> fitQuadric(const MeshView& mesh) {
     along += glm::dot(dvec3(mesh.normals[i]), fit.quadric.gradient(dvec3(mesh.positions[i])));
   if (along < 0) fit.quadric = fit.quadric.flipped();
   // 3
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    const dvec3 p(mesh.positions[i]), n(mesh.normals[i]), g = fit.quadric.gradient(p);
-    const double length = glm::length(g);
-    if (!(length > 1e-9 / fit.quadric.scale)) return std::nullopt;
-    fit.deviation.distance = std::max(fit.deviation.distance, std::abs(fit.quadric.value(p)) / length);
-    fit.deviation.angleRadians =
-        std::max(fit.deviation.angleRadians, std::atan2(glm::length(glm::cross(n, g)), glm::dot(n, g)));
-  }
+  const auto deviation = measureDeviation(fit.quadric, mesh);
+  if (!deviation) return std::nullopt;
+  fit.deviation = *deviation;
   return fit;
 }
 

@@ -12,35 +12,28 @@
 // Source: Taubin 1991; Pratt 1987.
 #pragma once
 
-#include "catoptric/geometry/shape_recognition.h"
+#include "catoptric/geometry/implicit_surface.h"
 
 namespace catoptric::geometry {
 
 /// f(p) = x.(a x) + b.x + c with x = (p - origin) / scale; grad f is taken with respect to p.
-struct Quadric {
+struct Quadric final : ImplicitSurface {
   dvec3 origin{0};
   double scale = 1;
   dmat3 a{0.0};  ///< symmetric
   dvec3 b{0};
   double c = 0;
 
-  [[nodiscard]] double value(const dvec3& p) const {
-    const dvec3 x = (p - origin) / scale;
-    return glm::dot(x, a * x) + glm::dot(b, x) + c;
+  [[nodiscard]] Sample sampleAt(const dvec3& p) const override {
+    const dvec3 x = (p - origin) / scale, ax = a * x;
+    return {glm::dot(x, ax) + glm::dot(b, x) + c, (2.0 * ax + b) / scale};
   }
-  [[nodiscard]] dvec3 gradient(const dvec3& p) const {
-    return (2.0 * (a * ((p - origin) / scale)) + b) / scale;
-  }
-  [[nodiscard]] dmat3 hessian() const { return a * (2.0 / (scale * scale)); }
+  [[nodiscard]] dmat3 hessian(const dvec3& /*p*/) const override { return a * (2.0 / (scale * scale)); }
   /// The same surface with its bright side on the other side.
-  [[nodiscard]] Quadric flipped() const { return {origin, scale, a * -1.0, b * -1.0, -c}; }
-  /// The surface's point near a point that is near it, along the gradient.
-  [[nodiscard]] dvec3 project(dvec3 p) const {
-    for (int i = 0; i < 4; ++i) {
-      const dvec3 g = gradient(p);
-      p -= g * (value(p) / std::max(glm::dot(g, g), 1e-300));
-    }
-    return p;
+  [[nodiscard]] Quadric flipped() const {
+    Quadric other = *this;
+    other.a *= -1.0, other.b *= -1.0, other.c *= -1.0;
+    return other;
   }
 };
 

@@ -19,7 +19,7 @@ struct Row {
 };
 
 /// Adding a scene = one file in built_in/ and one row here.
-constexpr std::array<Row, 21> kRows = {{
+constexpr std::array<Row, 22> kRows = {{
     {{"four-spheres", "four chrome spheres on a table in a furnished room (1998, figures 15 and 16)"},
      built_in::makeFourSpheres},
     {{"cylinder", "an upright chrome cylinder on a patterned floor (1998, figure 12)"},
@@ -43,6 +43,7 @@ constexpr std::array<Row, 21> kRows = {{
     {{"mixed", "a convex half and a concave half that join smoothly (1998, figure 9)"}, built_in::makeMixed},
     {{"tv", "a television screen, the extrusion of a convex curve (1998, figure 17)"}, built_in::makeTv},
     {{"cone", "a chrome cone on a table of rings and rays"}, built_in::makeCone},
+    {{"dome", "an aspheric dome on a wall and a chrome barrel of two radii"}, built_in::makeDome},
     {{"vase", "a surface of revolution with a waist, where it is a saddle"}, built_in::makeVase},
     {{"wavy-wall", "a wall of wavy chrome as at a fair, crests and troughs"}, built_in::makeWavyWall},
     {{"lenses", "a glass ball, a free-form lens and a block of green glass: refraction"},

@@ -9,9 +9,11 @@
 #include <numeric>
 
 #include "catoptric/core/log.h"
+#include "catoptric/geometry/aspheric_mirror.h"
 #include "catoptric/geometry/extrusion.h"
 #include "catoptric/geometry/mesh_measures.h"
 #include "catoptric/geometry/quadric.h"
+#include "catoptric/geometry/torus.h"
 #include "catoptric/geometry/vertex_weld.h"
 
 namespace catoptric::scene {
@@ -21,8 +23,8 @@ namespace {
 constexpr double kCurvedNormalTolerance = 1e-2;  // radians
 
 /// In the order of ReflectorShape.
-constexpr std::array<std::string_view, 7> kShapeNames{"plane",     "sphere",  "cylinder", "cone",
-                                                      "extrusion", "quadric", "mesh"};
+constexpr std::array<std::string_view, 9> kShapeNames{"plane",   "sphere", "cylinder", "cone", "extrusion",
+                                                      "quadric", "torus",  "aspheric", "mesh"};
 
 /// Disjoint sets of vertices.
 class UnionFind {
@@ -156,6 +158,13 @@ std::optional<Candidate> fitShape(ReflectorShape shape, const geometry::MeshView
     case ReflectorShape::Quadric:
       if (const auto fit = geometry::fitQuadric(mesh)) return Candidate{shape, fit->deviation, {}, false};
       break;
+    case ReflectorShape::Torus:
+      if (const auto fit = geometry::fitTorus(mesh)) return Candidate{shape, fit->deviation, {}, false};
+      break;
+    case ReflectorShape::Aspheric:
+      if (const auto fit = geometry::fitAsphericMirror(mesh))
+        return Candidate{shape, fit->deviation, {}, false};
+      break;
     case ReflectorShape::Mesh:
       break;
   }
@@ -234,9 +243,9 @@ void measureReflector(Reflector& reflector, const geometry::MeshView& mesh,
     core::logWarningOnce(
         fmt::format("\"{}\": no {} fits, declared shape ignored", reflector.name, *declaredShape));
   }
-  for (const ReflectorShape shape :
-       {ReflectorShape::Plane, ReflectorShape::Sphere, ReflectorShape::Cylinder, ReflectorShape::Cone,
-        ReflectorShape::Extrusion, ReflectorShape::Quadric}) {
+  for (const ReflectorShape shape : {ReflectorShape::Plane, ReflectorShape::Sphere, ReflectorShape::Cylinder,
+                                     ReflectorShape::Cone, ReflectorShape::Extrusion, ReflectorShape::Quadric,
+                                     ReflectorShape::Torus, ReflectorShape::Aspheric}) {
     if (shape == ReflectorShape::Plane && hasNormalMap) continue;
     const double angleLimit =
         shape == ReflectorShape::Plane ? options.normalTolerance : kCurvedNormalTolerance;

@@ -17,7 +17,17 @@
 namespace catoptric::scene {
 
 /// How a reflector is treated. `Plane` is a planar mirror; everything else goes by its mesh.
-enum class ReflectorShape : std::uint8_t { Plane, Sphere, Cylinder, Cone, Extrusion, Quadric, Mesh };
+enum class ReflectorShape : std::uint8_t {
+  Plane,
+  Sphere,
+  Cylinder,
+  Cone,
+  Extrusion,
+  Quadric,
+  Torus,
+  Aspheric,  ///< a surface of revolution, geometry/aspheric_mirror.h
+  Mesh
+};
 /// The word for it in extras.catoptric.shape, in `info` and in the viewer: "plane", "sphere", ...
 [[nodiscard]] std::string_view shapeName(ReflectorShape shape);
 

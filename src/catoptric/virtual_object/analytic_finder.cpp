@@ -11,9 +11,14 @@
 // taken for reflected draws outside the mirror's image and is masked.
 #include "catoptric/virtual_object/analytic_finder.h"
 
+#include <array>
+#include <utility>
+
+#include "catoptric/geometry/aspheric_mirror.h"
 #include "catoptric/geometry/extrusion.h"
 #include "catoptric/geometry/quadric.h"
 #include "catoptric/geometry/shape_recognition.h"
+#include "catoptric/geometry/torus.h"
 #include "catoptric/virtual_object/extruded_reflector.h"
 #include "catoptric/virtual_object/implicit_reflector.h"
 #include "catoptric/virtual_object/special_reflector.h"
@@ -65,21 +70,27 @@ class SpecialFinder : public PointFinder {
   dvec3 eye_{0};
 };
 
-class QuadricFinder : public PointFinder {
+class ImplicitFinder : public PointFinder {
  public:
-  QuadricFinder(const geometry::Quadric& quadric, std::span<const vec3> points,
-                const scene::Reflector& reflector)
-      : reflector_(quadric, points, reflector.radius),
-        chooser_{reflector.centre, reflector.radius * kSlack} {}
+  ImplicitFinder(std::shared_ptr<const geometry::ImplicitSurface> surface, bool isTurned,
+                 std::span<const vec3> points, const scene::Reflector& reflector)
+      : reflector_(std::move(surface), isTurned, points, reflector.radius),
+        chooser_{reflector.centre, reflector.radius * kSlack},
+        hasOne_(reflector.isConvex && !isTurned) {}
   void setEye(const EyeView& view) override { eye_ = view.eye; }
   [[nodiscard]] bool knowsHiddenPoints() const override { return false; }
   [[nodiscard]] std::optional<FoundPoint> find(const dvec3& scenePoint) const override {
+    if (hasOne_)
+      if (const auto first = reflector_.findFromBestSeed(eye_, scenePoint))
+        if (const auto found = chooser_.choose(std::array{*first}, false); found && !found->isPastBoundary)
+          return found;
     return chooser_.choose(reflector_.findReflections(eye_, scenePoint), false);
   }
 
  private:
   ImplicitReflector reflector_;
   Chooser chooser_;
+  bool hasOne_;  ///< on the mirror; past its boundary the surface may bend the other way
   dvec3 eye_{0};
 };
 
@@ -112,6 +123,18 @@ PartMesh extractPart(const scene::WorldGeometry& world, const scene::Part& part)
   return mesh;
 }
 
+std::shared_ptr<const geometry::ImplicitSurface> fitImplicit(scene::ReflectorShape shape,
+                                                             const geometry::MeshView& mesh) {
+  if (shape == scene::ReflectorShape::Quadric)
+    if (const auto fit = geometry::fitQuadric(mesh)) return std::make_shared<geometry::Quadric>(fit->quadric);
+  if (shape == scene::ReflectorShape::Torus)
+    if (const auto fit = geometry::fitTorus(mesh)) return std::make_shared<geometry::Torus>(fit->torus);
+  if (shape == scene::ReflectorShape::Aspheric)
+    if (const auto fit = geometry::fitAsphericMirror(mesh))
+      return std::make_shared<geometry::AsphericMirror>(fit->mirror);
+  return nullptr;
+}
+
 std::optional<SpecialReflector> fitSpecial(scene::ReflectorShape shape, const geometry::MeshView& mesh) {
   if (shape == scene::ReflectorShape::Sphere)
     if (const auto fit = geometry::fitSphere(mesh))
@@ -137,6 +160,8 @@ std::string findAnalyticObstacle(const scene::Reflector& reflector, bool flipped
     case scene::ReflectorShape::Cylinder:
     case scene::ReflectorShape::Cone:
     case scene::ReflectorShape::Quadric:
+    case scene::ReflectorShape::Torus:
+    case scene::ReflectorShape::Aspheric:
       return {};
     case scene::ReflectorShape::Extrusion:
       if (reflector.isConvex && !flipped) return {};
@@ -144,7 +169,7 @@ std::string findAnalyticObstacle(const scene::Reflector& reflector, bool flipped
     case scene::ReflectorShape::Mesh:
       break;
   }
-  return "no sphere, cylinder, cone, extrusion or quadric fits its vertices";
+  return "no sphere, cylinder, cone, extrusion, quadric, torus or aspheric mirror fits its vertices";
 }
 
 std::unique_ptr<PointFinder> makeAnalyticFinder(const scene::WorldGeometry& world, std::uint32_t reflector,
@@ -156,12 +181,8 @@ std::unique_ptr<PointFinder> makeAnalyticFinder(const scene::WorldGeometry& worl
     const auto profile = geometry::fitExtrusion(mesh.view());
     return profile ? std::make_unique<ExtrudedFinder>(*profile, skirt) : nullptr;
   }
-  if (mirror.shape == scene::ReflectorShape::Quadric) {
-    const auto fit = geometry::fitQuadric(mesh.view());
-    if (!fit) return nullptr;
-    return std::make_unique<QuadricFinder>(flipped ? fit->quadric.flipped() : fit->quadric, mesh.positions,
-                                           mirror);
-  }
+  if (auto surface = fitImplicit(mirror.shape, mesh.view()))
+    return std::make_unique<ImplicitFinder>(std::move(surface), flipped, mesh.positions, mirror);
   auto special = fitSpecial(mirror.shape, mesh.view());
   if (!special) return nullptr;
   if (flipped) special->isInside = !special->isInside;

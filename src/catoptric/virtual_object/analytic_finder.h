@@ -12,8 +12,8 @@
 
 namespace catoptric::virtual_object {
 
-/// Why the solver cannot serve a mirror; empty where it can: spheres, cylinders, cones and other quadrics,
-/// seen from either side, and extrusions of convex curves.
+/// Why the solver cannot serve a mirror; empty where it can: spheres, cylinders, cones, other quadrics, tori
+/// and aspheric mirrors, seen from either side, and extrusions of convex curves.
 [[nodiscard]] std::string findAnalyticObstacle(const scene::Reflector& reflector, bool flipped = false);
 
 /// Refits the shape to the mirror's vertices. Nothing where there is an obstacle. `skirt`: how far an open

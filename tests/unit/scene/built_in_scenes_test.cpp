@@ -241,6 +241,7 @@ const Expected kExpected[] = {
     {"mixed", {{ReflectorShape::Mesh, 1}}, false},
     {"tv", {{ReflectorShape::Extrusion, 1}}},
     {"cone", {{ReflectorShape::Cone, 1}}},
+    {"dome", {{ReflectorShape::Aspheric, 1}, {ReflectorShape::Torus, 1}}},
     {"vase", {{ReflectorShape::Mesh, 1}}, false},
     {"wavy-wall", {{ReflectorShape::Extrusion, 1}}, false},
     {"lenses", {{ReflectorShape::Sphere, 1}, {ReflectorShape::Mesh, 2}}, false},

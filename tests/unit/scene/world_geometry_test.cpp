@@ -103,54 +103,6 @@ TEST(WorldGeometry, CoplanarPanesMergeParallelOnesDoNot) {
   EXPECT_EQ(world.parts[world.reflectors[1].part].indexCount, 6u);
 }
 
-TEST(WorldGeometry, RecognisesCylinderAndCone) {
-  const dmat4 placed = glm::translate(dmat4(1), dvec3(1, 2, 3)) * glm::rotate(dmat4(1), 0.7, dvec3(1, 1, 0)) *
-                       glm::scale(dmat4(1), dvec3(2));
-  const WorldGeometry cylinder =
-      makeWorldGeometry(makeScene(makeFrustum(40, 1), makeMirrorMaterial(), placed));
-  ASSERT_EQ(cylinder.reflectors.size(), 1u);
-  EXPECT_EQ(cylinder.reflectors[0].shape, ReflectorShape::Cylinder);
-  EXPECT_TRUE(cylinder.reflectors[0].isConvex);
-  const WorldGeometry cone = makeWorldGeometry(makeScene(makeFrustum(40, 0.4), makeMirrorMaterial(), placed));
-  ASSERT_EQ(cone.reflectors.size(), 1u);
-  EXPECT_EQ(cone.reflectors[0].shape, ReflectorShape::Cone);
-  EXPECT_TRUE(cone.reflectors[0].isConvex);
-}
-
-TEST(WorldGeometry, StretchedSphereIsAQuadric) {
-  const WorldGeometry world = makeWorldGeometry(
-      makeScene(makeSphere(48, 24), makeMirrorMaterial(), glm::scale(dmat4(1), dvec3(1, 1.3, 0.8))));
-  ASSERT_EQ(world.reflectors.size(), 1u);
-  EXPECT_EQ(world.reflectors[0].shape, ReflectorShape::Quadric);
-  EXPECT_TRUE(world.reflectors[0].isConvex);
-  // Normals went by the inverse transpose: they are perpendicular to the ellipsoid.
-  for (std::size_t v = 0; v < world.positions.size(); ++v) {
-    const dvec3 p(world.positions[v]);
-    const dvec3 gradient = glm::normalize(p / dvec3(1, 1.69, 0.64));
-    EXPECT_NEAR(glm::dot(gradient, dvec3(world.normals[v])), 1, 1e-5);
-  }
-}
-
-TEST(WorldGeometry, SaddleIsNotConvex) {
-  MeshPrimitive saddle;
-  const int n = 20;
-  for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) {
-      const double x = 2.0 * i / n - 1, y = 2.0 * j / n - 1;
-      saddle.positions.push_back(vec3(dvec3(x, y, 0.2 * (x * x - y * y))));
-      saddle.normals.push_back(vec3(glm::normalize(dvec3(-0.4 * x, 0.4 * y, 1))));
-    }
-  for (std::uint32_t j = 0; j < n; ++j)
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const std::uint32_t a = j * (n + 1) + i;
-      saddle.indices.insert(saddle.indices.end(), {a, a + 1, a + n + 2, a, a + n + 2, a + n + 1});
-    }
-  const WorldGeometry world = makeWorldGeometry(makeScene(saddle));
-  ASSERT_EQ(world.reflectors.size(), 1u);
-  EXPECT_EQ(world.reflectors[0].shape, ReflectorShape::Quadric);
-  EXPECT_FALSE(world.reflectors[0].isConvex);
-}
-
 TEST(WorldGeometry, NegativeScaleFlipsWindingAndKeepsNormalsOutside) {
   const WorldGeometry world = makeWorldGeometry(
       makeScene(makeSphere(24, 12), makeMirrorMaterial(), glm::scale(dmat4(1), dvec3(-1, 1, 1))));
@@ -197,22 +149,6 @@ TEST(WorldGeometry, FlattenedTransformKeepsFiniteNormals) {
   const WorldGeometry world = makeWorldGeometry(
       makeScene(makeSphere(16, 8), makeMirrorMaterial(), glm::scale(dmat4(1), dvec3(1, 0, 1))));
   expectConsistent(world);
-}
-
-TEST(WorldGeometry, NormalMappedMirrorIsNoPlane) {
-  Material material = makeMirrorMaterial();
-  material.normalTexture.texture = 0;
-  material.hint.shape = "plane";
-  Scene scene = makeScene(makeFlatShadedQuad(), material);
-  scene.textures.resize(1);
-  EXPECT_EQ(makeWorldGeometry(scene).reflectors.at(0).shape, ReflectorShape::Mesh);
-}
-
-TEST(WorldGeometry, DeclaredShapeWins) {
-  Material material = makeMirrorMaterial();
-  material.hint.shape = "mesh";
-  EXPECT_EQ(makeWorldGeometry(makeScene(makeSphere(24, 12), material)).reflectors.at(0).shape,
-            ReflectorShape::Mesh);
 }
 
 TEST(WorldGeometry, OnlyKeepsNamedReflectors) {

@@ -18,6 +18,7 @@ namespace catoptric::scene::built_in {
 [[nodiscard]] Scene makeMixed();
 [[nodiscard]] Scene makeTv();
 [[nodiscard]] Scene makeCone();
+[[nodiscard]] Scene makeDome();
 [[nodiscard]] Scene makeVase();
 [[nodiscard]] Scene makeWavyWall();
 [[nodiscard]] Scene makeLenses();
