@@ -142,8 +142,12 @@ TEST(PartPixels, holdEachRayAgainstItsTriangle) {
   for (int i = 0; i < 100; ++i) {
     const int x = i % 10, y = i / 10;
     const bool isMirror = x > 0, isDrawn = !(x == 2 && y == 2), isOther = x == 1 && y == 1;
-    if (x + y <= 5) EXPECT_EQ(isDone[std::size_t(i)] != 0, isMirror && isDrawn && !isOther) << x << ' ' << y;
-    if (x + y >= 8) EXPECT_EQ(isDone[std::size_t(i)], 0) << x << ' ' << y;
+    if (x + y <= 5) {
+      EXPECT_EQ(isDone[std::size_t(i)] != 0, isMirror && isDrawn && !isOther) << x << ' ' << y;
+    }
+    if (x + y >= 8) {
+      EXPECT_EQ(isDone[std::size_t(i)], 0) << x << ' ' << y;
+    }
     count += isDone[std::size_t(i)];
   }
   EXPECT_EQ(count, done);
