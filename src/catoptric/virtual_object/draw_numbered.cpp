@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Virtual triangles as numbers, and each mirror pixel shaded once (virtual_object_method.h, step 2):
+//   1. which triangles are worth drawing: first those that some pixel's centre may lie in, then of these the
+//      ones that are what they seem to be;
+//   2. their numbers, by GL or, where that is software, by the processor;
+//   3. the rectangles of pixels in which each part is seen, shaded;
+//   4. masked and blended parts, as surfaces.
+#include "catoptric/virtual_object/virtual_object_method.h"
+
+namespace catoptric::virtual_object {
+
+/// Which triangles are drawn: the cheap question first.
+void VirtualObjectMethod::markTriangles(raster::FrameContext& frame, const raster::Chain& chain,
+                                        const raster::SurfaceView& view, const Prepared& p) {
+  const PictureView picture{mat4(view.clipFromDraw), view.parent->widthPx, view.parent->heightPx,
+                            view.windingFlipped};
+  triangles_.isKept.assign(p.objects.indices.size() / 3, 1);
+  projectVertices(picture, p.virtualPositions, screen_);
+  frame.counters.culledTriangles += dropUnseenTriangles(p.objects, frame.scene.geometry(), picture,
+                                                        chain.bounds, screen_, triangles_.isKept);
+  raster::dropVirtualTriangles(p.objects, view.drawEye, p.virtualPositions, p.kinds, p.reflectionPoints,
+                               triangles_.isKept, {}, findLongestChord(p));
+}
+
+void VirtualObjectMethod::drawNumbersByGl(raster::FrameContext& frame, const raster::Chain& chain,
+                                          const raster::SurfaceView& view, Prepared& p) {
+  if (!p.numbered) p.numbered = std::make_unique<NumberedTriangles>(p.objects);
+  raster::gatherVirtualTriangles(p.objects, p.numbered->indices(), p.isNumbered, triangles_);
+  frame.counters.virtualTriangles += triangles_.indices.size() / 3;
+  ranges_.clear();
+  for (const raster::TessellatedPart& part : triangles_.parts)
+    if (part.indexCount > 0) ranges_.push_back({part.part, part.firstIndex, part.indexCount});
+  shading_.beginHits(chain.bounds);
+  p.numbered->draw(frame, view, numberProgram_, p.virtualPositions, triangles_.indices, ranges_);
+  shading_.readHits(chain.bounds, numbers_.hits);
+}
+
+void VirtualObjectMethod::drawNumbersHere(raster::FrameContext& frame, const raster::Chain& chain,
+                                          const raster::SurfaceView& view, const Prepared& p) {
+  const raster::Level& parent = *view.parent;
+  mirrorPositions_.resize(std::size_t(chain.bounds.width) * std::size_t(chain.bounds.height));
+  parent.surfaces.readPixels(1, chain.bounds, std::span<vec4>(mirrorPositions_));
+  const NumberPicture picture{.clipFromDraw = mat4(view.clipFromDraw),
+                              .drawEye = view.drawEye,
+                              .widthPx = parent.widthPx,
+                              .heightPx = parent.heightPx,
+                              .bounds = chain.bounds,
+                              .mirror = mirrorPositions_,
+                              .parentIds = frame.parentIds,
+                              .parentWord = chain.parentWord(),
+                              .screen = screen_,
+                              .virtualPositions = p.virtualPositions,
+                              .isKept = triangles_.isKept,
+                              .isWanted = p.isNumbered,
+                              .triangleParts = frame.scene.levels().triangleParts()};
+  frame.counters.virtualTriangles += raster_.draw(p.objects, picture, numbers_);
+  shading_.uploadHits(chain.bounds, numbers_.hits, numbers_.depths);
+}
+
+void VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, const raster::Chain& chain,
+                                       const raster::SurfaceView& view, Prepared& p, raster::Level& target) {
+  markTriangles(frame, chain, view, p);
+  shading_.prepare(frame.scene, *view.parent);
+  if (numbersByGl_)
+    drawNumbersByGl(frame, chain, view, p);
+  else
+    drawNumbersHere(frame, chain, view, p);
+  findPartRects(frame.scene.levels().triangleParts(), chain.bounds, numbers_.hits, frame.parentIds,
+                view.parent->widthPx, chain.parentWord(), rects_);
+  shading_.shadeVirtual(frame, chain, *view.parent, target, false, rects_.inner);
+  shading_.shadeVirtual(frame, chain, *view.parent, target, true, rects_.edges);
+
+  raster::gatherVirtualTriangles(p.objects, p.objects.indices, p.isDrawn, triangles_);
+  frame.counters.virtualTriangles += triangles_.indices.size() / 3;
+  if (!triangles_.indices.empty()) p.pass.drawSelected(frame, view, p.virtualPositions, triangles_, target);
+}
+
+}  // namespace catoptric::virtual_object
