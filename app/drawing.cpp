@@ -8,6 +8,7 @@
 #include "catoptric/core/parallel.h"
 #include "catoptric/core/tone_map.h"
 #include "catoptric/geometry/nearest_hit.h"
+#include "catoptric/scene/hierarchy_triangles.h"
 
 namespace catoptric::app {
 namespace {
@@ -16,14 +17,7 @@ constexpr float kFading = 0.45f;
 
 /// How far each pixel's ray goes: mirrors hide what is behind them, whatever they show.
 sketch::DistanceImage traceDistances(const scene::WorldGeometry& world, const scene::CameraFrame& camera) {
-  std::vector<geometry::HierarchyTriangle> triangles;
-  for (std::uint32_t t = 0; t < world.triangleCount(); ++t) {
-    const auto corner = [&](std::uint32_t k) { return world.positions[world.indices[3 * t + k]]; };
-    const scene::Part& part = world.parts[world.triangleParts[t]];
-    triangles.push_back({corner(0), corner(1), corner(2), t, world.triangleParts[t],
-                         part.isSeenFromBehind ? geometry::kTwoSided : 0u});
-  }
-  const geometry::TriangleHierarchy hierarchy(triangles);
+  const geometry::TriangleHierarchy hierarchy(scene::listTriangles(world));
   sketch::DistanceImage distances(camera.widthPx, camera.heightPx, std::numeric_limits<float>::infinity());
   core::parallelFor(std::size_t(camera.heightPx), 8, [&](std::size_t begin, std::size_t end) {
     for (int y = int(begin); y < int(end); ++y)

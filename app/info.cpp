@@ -6,6 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "catoptric/renderer/choose_method.h"
+#include "catoptric/renderer/expected_error.h"
+#include "catoptric/scene/hierarchy_triangles.h"
 #include "commands.h"
 #include "documents.h"
 #include "option_values.h"
@@ -18,25 +21,32 @@ namespace {
 struct Options {
   std::string source;
   SceneOptions scene;
+  CameraOptions camera;
+  renderer::FrameOptions frame;
   OutputOptions output;
 };
 
-std::string methodText(const renderer::MethodChoice& choice) {
-  std::string text(renderer::methodName(choice.method));
-  const bool isCurved = choice.method == renderer::Method::Virtual && choice.solver != renderer::Solver::Auto;
-  return isCurved ? text + "/" + std::string(renderer::solverName(choice.solver)) : text;
+std::string wayText(renderer::Method method, renderer::Solver solver) {
+  const std::string text(renderer::methodName(method));
+  const bool isCurved = method == renderer::Method::Virtual && solver != renderer::Solver::Auto;
+  return isCurved ? text + "/" + std::string(renderer::solverName(solver)) : text;
 }
 
-/// What auto picks for each mirror in the view of the scene's first camera, at the default size.
-std::vector<renderer::MethodChoice> chooseMethods(const LoadedScene& loaded) {
-  const renderer::FrameOptions defaults;
-  const renderer::MethodChooser chooser(loaded.geometry);
+std::string methodText(const renderer::MethodChoice& choice) {
+  return wayText(choice.method, choice.solver);
+}
+
+/// What auto picks for each mirror in the view.
+std::vector<renderer::MethodChoice> chooseMethods(const LoadedScene& loaded, const scene::Camera& camera,
+                                                  const renderer::FrameOptions& frame) {
+  const geometry::TriangleHierarchy triangles(scene::listTriangles(loaded.geometry));
+  renderer::MethodChooser chooser(loaded.geometry, triangles);
+  const scene::CameraFrame view = scene::makeCameraFrame(camera, frame.widthPx, frame.heightPx);
+  const raster::LevelsOfDetail levels(loaded.scene, loaded.geometry);  // as drawing would use them
   std::vector<renderer::MethodChoice> choices;
   for (std::uint32_t i = 0; i < loaded.geometry.reflectors.size(); ++i)
-    choices.push_back(loaded.scene.cameras.empty()
-                          ? renderer::Renderer::chooseMethod(loaded.geometry.reflectors[i])
-                          : chooser.choose(i, scene::makeCameraFrame(loaded.scene.cameras[0],
-                                                                     defaults.widthPx, defaults.heightPx)));
+    choices.push_back(chooser.choose(
+        i, view, {.maxErrorPx = frame.maxErrorPx, .bounces = frame.bounces, .levels = &levels}));
   return choices;
 }
 
@@ -45,9 +55,21 @@ Json describeForecast(const renderer::MethodChoice& choice) {
   const renderer::ViewForecast& f = *choice.forecast;
   return {{"parts", f.parts},
           {"pixels", f.pixels},
+          {"offered", f.offered},
+          {"triangles", f.triangles},
           {"one_to_one_share", f.oneToOne},
           {"near_focus_share", f.nearFocus},
           {"self_share", f.self}};
+}
+
+Json describeCandidates(const renderer::MethodChoice& choice) {
+  Json rows = Json::array();
+  for (const renderer::MethodCandidate& c : choice.candidates)
+    rows.push_back({{"method", renderer::methodName(c.method)},
+                    {"solver", renderer::solverName(c.solver)},
+                    {"expected_error_px", c.errorPx},
+                    {"expected_ms", c.ms}});
+  return rows;
 }
 
 Json describeReflector(const LoadedScene& loaded, const scene::Reflector& reflector,
@@ -73,7 +95,8 @@ Json describeReflector(const LoadedScene& loaded, const scene::Reflector& reflec
            {{"method", std::string(renderer::methodName(choice.method))},
             {"solver", std::string(renderer::solverName(choice.solver))},
             {"reason", choice.reason},
-            {"view", describeForecast(choice)}}}};
+            {"view", describeForecast(choice)},
+            {"candidates", describeCandidates(choice)}}}};
 }
 
 Json describeScene(const LoadedScene& loaded, std::span<const renderer::MethodChoice> choices) {
@@ -177,6 +200,34 @@ std::string makeReflectorTable(const LoadedScene& loaded, std::span<const render
   return "\n" + formatTable(rows, usesColour(stdout)) + "\n" + reasons;
 }
 
+std::string describeError(const renderer::MethodCandidate& candidate) {
+  return candidate.errorPx >= renderer::kLostPx ? fmt::format("{:.0f} or more", renderer::kLostPx)
+                                                : fmt::format("{:.3f}", candidate.errorPx);
+}
+
+/// The ways of drawing each curved mirror, with what is expected of them.
+std::string makeWaysTable(const LoadedScene& loaded, std::span<const renderer::MethodChoice> choices,
+                          const renderer::FrameOptions& frame) {
+  std::vector<std::vector<std::string>> rows{
+      {"reflector", "pixels", "way", "expected error px", "expected ms", "picked"}};
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    const renderer::MethodChoice& choice = choices[i];
+    for (const renderer::MethodCandidate& c : choice.candidates) {
+      const bool isPicked = c.method == choice.method && c.solver == choice.solver;
+      rows.push_back({loaded.geometry.reflectors[i].name, fmt::format("{:.0f}", choice.forecast->pixels),
+                      wayText(c.method, c.solver), describeError(c), fmt::format("{:.1f}", c.ms),
+                      isPicked ? "yes" : ""});
+    }
+  }
+  if (rows.size() == 1) return "";
+  return fmt::format(
+             "\nways of drawing them, {}x{}, {} bounce{}, --max-error {:.3g}: error of 95 % of the pixels; "
+             "ms "
+             "of a frame where nothing moves, with OpenGL in software\n",
+             frame.widthPx, frame.heightPx, frame.bounces, frame.bounces == 1 ? "" : "s", frame.maxErrorPx) +
+         formatTable(rows, usesColour(stdout)) + "\n";
+}
+
 std::string describeBackend(renderer::Renderer& renderer) {
   Json gl;
   addGl(renderer, gl);
@@ -192,7 +243,8 @@ int run(const Options& options) {
   }
   const auto loaded = loadScene(options.source, options.scene);
   renderer::Renderer renderer(loaded->scene, loaded->geometry, loaded->environment);
-  const std::vector<renderer::MethodChoice> choices = chooseMethods(*loaded);
+  const scene::Camera camera = chooseCamera(*loaded, options.camera);
+  const std::vector<renderer::MethodChoice> choices = chooseMethods(*loaded, camera, options.frame);
   if (!options.output.json.empty()) {
     Json document = makeDocument("info", nullptr);
     addGl(renderer, document["environment"]);
@@ -200,7 +252,8 @@ int run(const Options& options) {
     writeDocument(options.output.json, document);
   }
   if (options.output.json != "-")
-    printData(makeSummary(*loaded) + describeBackend(renderer) + makeReflectorTable(*loaded, choices));
+    printData(makeSummary(*loaded) + describeBackend(renderer) + makeReflectorTable(*loaded, choices) +
+              makeWaysTable(*loaded, choices, options.frame));
   return 0;
 }
 
@@ -219,6 +272,9 @@ Command makeInfoCommand() {
                 arguments.positional("SCENE",
                                      "A .gltf or .glb file, '-', a built-in scene, or a file of bake",
                                      Arguments::Count::ExactlyOne, setText(options->source));
+                arguments.group("View that auto is asked for");
+                declareFrame(arguments, options->frame);
+                declareCamera(arguments, options->camera);
                 declareScene(arguments, options->scene);
                 declareOutput(arguments, options->output);
               },

@@ -74,6 +74,7 @@ void addEnding(MethodVariant& variant, const std::string& method, const std::str
 
 const std::vector<MethodVariant>& methodVariants() {
   static const std::vector<MethodVariant> variants{
+      {"auto", "what each mirror needs", Method::Auto, Solver::Auto, true, false, false},
       {"none", "mirrors show the surroundings only", Method::None, Solver::Auto, true},
       {"environment-plain", "environment map of each mirror", Method::Environment, Solver::Auto, false},
       {"environment", "environment map, corrected by the box of the room", Method::Environment, Solver::Auto,

@@ -28,8 +28,9 @@ struct MethodVariant {
   std::optional<renderer::Backend> backend{};  ///< "virtual-layered+gpu"; none: as --backend says
 };
 
-/// Slowest-looking last: none, environment-plain, environment, virtual-explosion, virtual-layered,
-/// virtual-refined, virtual-analytic, virtual-exact, zexel, morphing, morphing-dynamic, raytrace.
+/// Slowest-looking last, after auto: none, environment-plain, environment, virtual-explosion,
+/// virtual-layered, virtual-refined, virtual-analytic, virtual-exact, zexel, morphing, morphing-dynamic,
+/// raytrace.
 [[nodiscard]] const std::vector<MethodVariant>& methodVariants();
 /// Those that are drawn where none is named.
 [[nodiscard]] std::vector<MethodVariant> defaultVariants();

@@ -122,9 +122,7 @@ void declareCamera(Arguments& arguments, CameraOptions& options) {
                    setDegrees("--elevation", options.elevationDegrees, -90, 90));
 }
 
-void declarePicture(Arguments& arguments, PictureOptions& options) {
-  renderer::FrameOptions& frame = options.frame;
-  arguments.group("Picture");
+void declareFrame(Arguments& arguments, renderer::FrameOptions& frame) {
   arguments.option("--size", "WxH", "Pixels; default 960x720", [&](const std::string& text) {
     const ivec2 size = parseSize("--size", text);
     frame.widthPx = size.x;
@@ -134,11 +132,19 @@ void declarePicture(Arguments& arguments, PictureOptions& options) {
                    "Mirrors in mirrors, to this depth; default 1. Light goes through up to 6 surfaces of "
                    "glass besides",
                    setInteger("--bounces", frame.bounces, 0, kMostBounces));
+  arguments.option(
+      "--max-error", "PX",
+      "How far things may be off: for the tessellation of reflected objects, and for what auto picks; "
+      "default 0.5",
+      [&](const std::string& text) { frame.maxErrorPx = parseNumber("--max-error", text, 0.01, 1e6); });
+}
+
+void declarePicture(Arguments& arguments, PictureOptions& options) {
+  renderer::FrameOptions& frame = options.frame;
+  arguments.group("Picture");
+  declareFrame(arguments, frame);
   arguments.option("--samples", "N", "Samples a pixel; default 1",
                    setInteger("--samples", frame.samples, 1, kMostSamples));
-  arguments.option(
-      "--max-error", "PX", "Aim for the tessellation of reflected objects; default 0.5",
-      [&](const std::string& text) { frame.maxErrorPx = parseNumber("--max-error", text, 0.01, 1e6); });
   arguments.option("--environment", "FILE", "Surroundings, .hdr or .exr; default: a built-in sky",
                    setText(options.environment));
   arguments.option(

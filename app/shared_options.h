@@ -49,7 +49,9 @@ void declareCamera(Arguments& arguments, CameraOptions& options);
 void declareMerge(Arguments& arguments, renderer::FrameOptions& frame);
 /// Throws UsageError for a --texture-scale that would change nothing.
 void checkMerge(const renderer::FrameOptions& options, bool usesTexture);
-/// What is drawn however it is drawn: --size, --bounces, --samples, ...
+/// What is asked of a picture before it is drawn: --size, --bounces, --max-error.
+void declareFrame(Arguments& arguments, renderer::FrameOptions& frame);
+/// What is drawn however it is drawn: those, --samples, --environment, --exposure.
 void declarePicture(Arguments& arguments, PictureOptions& options);
 /// --backend, --parts
 void declareBackend(Arguments& arguments, renderer::FrameOptions& options);

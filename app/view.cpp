@@ -62,9 +62,7 @@ std::vector<std::string> findSceneOptions(const std::vector<std::string>& line) 
 
 /// All methods, the one that the command line names first among them; it gets a row of its own if it is new.
 void listVariants(viewer::ViewerOptions& viewer) {
-  viewer.variants = {
-      {"auto", "what each mirror needs", renderer::Method::Auto, renderer::Solver::Auto, true}};
-  viewer.variants.insert(viewer.variants.end(), methodVariants().begin(), methodVariants().end());
+  viewer.variants = methodVariants();
   const renderer::FrameOptions& wanted = viewer.frame;
   for (std::size_t i = 0; i < viewer.variants.size(); ++i) {
     const MethodVariant& variant = viewer.variants[i];

@@ -3,6 +3,7 @@
 // mirror direction. Box-corrected: the mirrored ray is followed to the wall of a box around the room, and the cube is
 // looked up in the direction of that point from the centroid.
 
+#include "lib/box_lookup.glsl"
 #include "raster/level_pixels.glsl"
 
 uniform sampler2D u_parentRadiance;
@@ -25,19 +26,10 @@ layout(location = 1) out vec4 o_position;
 layout(location = 2) out vec4 o_weight;
 layout(location = 3) out uvec2 o_ids;
 
-/// Direction from the cube's centre in which the ray from p along d should look.
-vec3 lookUpDirection(vec3 p, vec3 d) {
-  if (u_boxCorrected == 0) return d;
-  vec3 safe = vec3(abs(d.x) < 1.0e-9f ? 1.0e-9f : d.x, abs(d.y) < 1.0e-9f ? 1.0e-9f : d.y,
-                   abs(d.z) < 1.0e-9f ? 1.0e-9f : d.z);
-  vec3 farPlanes = max((u_boxLower - p) / safe, (u_boxUpper - p) / safe);
-  float t = min(min(farPlanes.x, farPlanes.y), farPlanes.z);
-  return t > 0.0f ? normalize(p + t * d - u_centre) : d;
-}
-
 vec3 directionAt(ivec2 pixel) {
   vec3 d = readMirrorDirection(u_parentRadiance, u_parentWeight, pixel);
-  return lookUpDirection(texelFetch(u_parentPosition, pixel, 0).xyz, d);
+  if (u_boxCorrected == 0) return d;
+  return lookUpInBox(u_boxLower, u_boxUpper, u_centre, texelFetch(u_parentPosition, pixel, 0).xyz, d);
 }
 
 /// Change of the look-up direction to a neighbour on the same mirror.

@@ -3,6 +3,7 @@
 """catoptric info and catoptric scenes."""
 import json
 import os
+import re
 import unittest
 
 import support
@@ -34,6 +35,22 @@ class Info(support.CommandTest):
         self.assertEqual(mirror["fit_error"], 0)
         self.assertTrue(mirror["reason"])
         self.assertTrue(mirror["auto"]["reason"])
+
+    def test_ways_of_drawing_a_mirror(self):
+        """What auto expects of each, and that the bound has a say."""
+        def ask(*options):
+            mirror, = self.json_of("info", "fender", "--size", "240x180", *options)["reflectors"]
+            return mirror["auto"]
+        strict, lenient = ask(), ask("--max-error", "1000")
+        ways = [(way["method"], way["solver"]) for way in strict["candidates"]]
+        self.assertEqual(ways, [("environment", "auto"), ("virtual", "refined"), ("virtual", "exact")])
+        for way in strict["candidates"]:
+            self.assertGreater(way["expected_ms"], 0)
+        self.assertLess(max(way["expected_error_px"] for way in strict["candidates"][1:]), 0.5)
+        self.assertEqual((strict["method"], lenient["method"]), ("virtual", "environment"))
+        text = self.succeed("info", "fender", "--size", "240x180").stdout.decode()
+        self.assertRegex(text, r"(?m)^reflector +pixels +way +expected error px +expected ms +picked$")
+        self.assertEqual(len(re.findall(r"(?m)^fender .* yes$", text)), 1)
 
     def test_names_cannot_write_to_the_terminal(self):
         document = support.make_gltf()

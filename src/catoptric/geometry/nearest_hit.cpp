@@ -46,7 +46,8 @@ std::optional<TriangleHit> intersect(const HierarchyTriangle& t, const dvec3& or
 }  // namespace
 
 std::optional<TriangleHit> findNearestHit(const TriangleHierarchy& hierarchy, const dvec3& origin,
-                                          const dvec3& direction, double least, std::uint32_t ignored) {
+                                          const dvec3& direction, double least, std::uint32_t ignored,
+                                          std::uint32_t ignoredPart) {
   const auto nodes = hierarchy.nodes();
   std::optional<TriangleHit> nearest;
   if (nodes.empty()) return nearest;
@@ -71,7 +72,7 @@ std::optional<TriangleHit> findNearestHit(const TriangleHierarchy& hierarchy, co
       continue;
     }
     for (const HierarchyTriangle& t : hierarchy.triangles().subspan(node.first, node.count)) {
-      if (t.triangle == ignored) continue;
+      if (t.triangle == ignored || t.part == ignoredPart) continue;
       const auto hit = intersect(t, origin, direction);
       if (!hit || hit->distance <= least || hit->distance >= most) continue;
       nearest = hit;

@@ -21,10 +21,11 @@ struct TriangleHit {
 /// In HierarchyTriangle::flags: hit on both sides. Others are hit on their front only.
 inline constexpr std::uint32_t kTwoSided = 1;
 
-/// Nearest hit farther than `least`; `ignored` is a triangle that the ray starts on.
+/// Nearest hit farther than `least`; `ignored` is a triangle that the ray starts on, `ignoredPart` a part
+/// (HierarchyTriangle::part) that is not there for it.
 [[nodiscard]] std::optional<TriangleHit> findNearestHit(const TriangleHierarchy& hierarchy,
                                                         const dvec3& origin, const dvec3& direction,
-                                                        double least = 0,
-                                                        std::uint32_t ignored = 0xffffffffu);
+                                                        double least = 0, std::uint32_t ignored = 0xffffffffu,
+                                                        std::uint32_t ignoredPart = 0xffffffffu);
 
 }  // namespace catoptric::geometry

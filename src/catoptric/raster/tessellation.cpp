@@ -37,6 +37,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "catoptric/core/log.h"
@@ -66,6 +68,69 @@ void appendPieces(TessellatedObjects& objects, std::uint32_t part, const PartPie
   appendTo(objects.uv0, pieces.uv0), appendTo(objects.uv1, pieces.uv1);
   appendTo(objects.sourceTriangles, pieces.sources);
   objects.parts.push_back(run);
+}
+
+/// Step 2: k, for this diameter of the mirror on the screen.
+double findEdgeFactor(const ReflectorDistance& distance, double pixelsPerUnit, double maxErrorPx) {
+  if (maxErrorPx >= kUncutPx) return 1e30;
+  const double leastPx = distance.turnsRound() ? kLeastTurnedPx : 1.0;
+  const double diameterPx = std::max(4.0 * double(distance.focalLength()) * pixelsPerUnit, leastPx);
+  return std::min(std::sqrt(std::max(maxErrorPx, 1e-3) / (kSagFactor * diameterPx)), 0.5);
+}
+
+/// Step 2: edges are split at k (d + this).
+float findFloor(const ReflectorDistance& distance, const scene::Reflector& mirror, bool byRays) {
+  // Not beyond the mirror's radius: triangles larger than an open mirror have corners that it cannot reflect.
+  const float c = distance.focalLength();
+  return byRays ? std::max(c, std::min(kByRays * c, float(mirror.radius))) : c;
+}
+
+double findPixelsPerUnit(const scene::Reflector& reflector, const TessellationOptions& options) {
+  return options.reflectorDiameterPx / (2.0 * std::max(reflector.radius, 1e-30));
+}
+
+/// Step 3; null for the part's own triangles.
+const DetailLevel* chooseLevel(const scene::WorldGeometry& geometry, const scene::Reflector& reflector,
+                               const ReflectorDistance& distance, const TessellationOptions& options,
+                               std::uint32_t p) {
+  if (!options.levels || options.maxErrorPx >= kUncutPx || !reflector.isConvex) return nullptr;
+  const double pixelsPerUnit = findPixelsPerUnit(reflector, options);
+  const auto levels = options.levels->levels(p);
+  if (levels.empty()) return nullptr;
+  const scene::Part& part = geometry.parts[p];
+  core::Box box;
+  for (std::uint32_t v = 0; v < part.vertexCount; ++v)
+    box.add(dvec3(geometry.positions[part.firstVertex + v]));
+  const double c = distance.focalLength();
+  const double d = std::max(double(distance(vec3(box.centre()))) - box.radius(), 0.0);
+  const double bound = kLevelShare * options.maxErrorPx * (d + c) / (c * pixelsPerUnit);
+  const scene::Reflector* mirror =
+      part.reflector == core::kNoId ? nullptr : &geometry.reflectors[part.reflector];
+  const double largestTurn = mirror ? bound / mirror->radius : kLargestTurn;
+  const DetailLevel* chosen = nullptr;
+  for (const DetailLevel& level : levels)
+    if (options.levels->findDistance(p, level) <= bound && options.levels->findTurn(p, level) <= largestTurn)
+      chosen = &level;
+  return chosen;
+}
+
+/// Pieces of one triangle, from the edge length at a few places of it.
+double estimatePieces(const ReflectorDistance& distance, float k, float floor, const vec3& a, const vec3& b,
+                      const vec3& c, int depth) {
+  constexpr float kPieceArea = 0.22f;  // of the square of the longest edge that is left; fitted
+  constexpr int kDeepest = 6;
+  if (distance.isBehind(a) && distance.isBehind(b) && distance.isBehind(c)) return 0;
+  const float longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
+  const float edge = k * (distance((a + b + c) / 3.0f) + floor);
+  if (longest <= edge) return 1;
+  if (longest <= 3 * edge || depth == kDeepest)
+    return std::max(2.0, double(0.5f * glm::length(glm::cross(b - a, c - a)) / (kPieceArea * edge * edge)));
+  const vec3 ab = 0.5f * (a + b), bc = 0.5f * (b + c), ca = 0.5f * (c + a);
+  double sum = 0;
+  for (const auto& [x, y, z] :
+       {std::tuple(a, ab, ca), std::tuple(ab, b, bc), std::tuple(ca, bc, c), std::tuple(ab, bc, ca)})
+    sum += estimatePieces(distance, k, floor, x, y, z, depth + 1);
+  return sum;
 }
 
 }  // namespace
@@ -102,12 +167,8 @@ ReflectorTessellation::ReflectorTessellation(const scene::WorldGeometry& geometr
       pieces_(geometry.parts.size()),
       cutTriangles_(geometry.parts.size()) {
   options_.parts = options_.shadedByRays = {};
-  pixelsPerUnit_ =
-      options.reflectorDiameterPx / (2.0 * std::max(geometry.reflectors[reflector].radius, 1e-30));
-  const double leastPx = distance_.turnsRound() ? kLeastTurnedPx : 1.0;
-  const double diameterPx = std::max(4.0 * double(distance_.focalLength()) * pixelsPerUnit_, leastPx);
-  const double k = std::sqrt(std::max(options.maxErrorPx, 1e-3) / (kSagFactor * diameterPx));
-  askedFactor_ = options.maxErrorPx < kUncutPx ? std::min(k, 0.5) : 1e30;
+  askedFactor_ = findEdgeFactor(distance_, findPixelsPerUnit(geometry.reflectors[reflector], options),
+                                options.maxErrorPx);
   std::size_t uncut = 0;
   for (std::uint32_t p = 0; p < geometry.parts.size(); ++p)
     if (isCut(p)) uncut += geometry.parts[p].indexCount / 3;
@@ -124,37 +185,15 @@ bool ReflectorTessellation::isShadedByRays(std::size_t part) const {
   return !byRays_.empty() && byRays_[part] != 0;
 }
 
-/// Step 3; null for the part's own triangles.
 const DetailLevel* ReflectorTessellation::findLevel(const scene::WorldGeometry& geometry,
                                                     std::uint32_t p) const {
-  if (!options_.levels || options_.maxErrorPx >= kUncutPx || !geometry.reflectors[reflector_].isConvex)
-    return nullptr;
-  const auto levels = options_.levels->levels(p);
-  if (levels.empty()) return nullptr;
-  const scene::Part& part = geometry.parts[p];
-  core::Box box;
-  for (std::uint32_t v = 0; v < part.vertexCount; ++v)
-    box.add(dvec3(geometry.positions[part.firstVertex + v]));
-  const double c = distance_.focalLength();
-  const double d = std::max(double(distance_(vec3(box.centre()))) - box.radius(), 0.0);
-  const double bound = kLevelShare * options_.maxErrorPx * (d + c) / (c * pixelsPerUnit_);
-  const scene::Reflector* mirror =
-      part.reflector == core::kNoId ? nullptr : &geometry.reflectors[part.reflector];
-  const double largestTurn = mirror ? bound / mirror->radius : kLargestTurn;
-  const DetailLevel* chosen = nullptr;
-  for (const DetailLevel& level : levels)
-    if (options_.levels->findDistance(p, level) <= bound &&
-        options_.levels->findTurn(p, level) <= largestTurn)
-      chosen = &level;
-  return chosen;
+  return chooseLevel(geometry, geometry.reflectors[reflector_], distance_, options_, p);
 }
 
 CutOrder ReflectorTessellation::makeOrder(const scene::WorldGeometry& geometry, std::uint32_t p) const {
   const scene::Part& part = geometry.parts[p];
   const scene::Reflector* mirror = options_.isSeenDirectly ? &geometry.reflectors[reflector_] : nullptr;
-  // Not beyond the mirror's radius: triangles larger than an open mirror have corners that it cannot reflect.
-  const float c = distance_.focalLength(), radius = float(geometry.reflectors[reflector_].radius);
-  const float floor = isShadedByRays(p) ? std::max(c, std::min(kByRays * c, radius)) : c;
+  const float floor = findFloor(distance_, geometry.reflectors[reflector_], isShadedByRays(p));
   CutOrder order{.part = part,
                  .corners = std::span(geometry.indices).subspan(part.firstIndex, part.indexCount),
                  .firstTriangle = part.firstIndex / 3,
@@ -219,6 +258,37 @@ void ReflectorTessellation::gatherObjects(const scene::WorldGeometry& geometry) 
     if (isCut(p)) objects_.simplifiedTriangles += geometry.parts[p].indexCount / 3 - cutTriangles_[p];
     appendPieces(objects_, p, pieces_[p]);
   }
+}
+
+std::size_t estimateTriangles(const scene::WorldGeometry& geometry, std::uint32_t reflector,
+                              const TessellationOptions& options) {
+  const scene::Reflector& mirror = geometry.reflectors[reflector];
+  const ReflectorDistance distance(geometry, geometry.parts[mirror.part],
+                                   options.keepsBehind || mirror.doubleSided || mirror.isRefractor());
+  const auto k = float(findEdgeFactor(distance, findPixelsPerUnit(mirror, options), options.maxErrorPx));
+  std::vector<double> sums(geometry.parts.size(), 0.0);
+  core::parallelFor(geometry.parts.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      if (p == mirror.part || (!options.parts.empty() && options.parts[p] == 0)) continue;
+      const bool byRays = !options.shadedByRays.empty() && options.shadedByRays[p] != 0;
+      const float floor = findFloor(distance, mirror, byRays);
+      const scene::Part& part = geometry.parts[p];
+      std::span<const std::uint32_t> corners =
+          std::span(geometry.indices).subspan(part.firstIndex, part.indexCount);
+      if (const DetailLevel* level = chooseLevel(geometry, mirror, distance, options, std::uint32_t(p)))
+        corners = options.levels->corners(*level);
+      for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+        const vec3 &a = geometry.positions[corners[i]], &b = geometry.positions[corners[i + 1]],
+                   &c = geometry.positions[corners[i + 2]];
+        const dvec3 normal(glm::cross(b - a, c - a));
+        if (options.isSeenDirectly && !part.isSeenFromBehind &&  // its back to all of the mirror
+            glm::dot(normal, mirror.centre - dvec3(a)) < -mirror.radius * glm::length(normal))
+          continue;
+        sums[p] += estimatePieces(distance, k, floor, a, b, c, 0);
+      }
+    }
+  });
+  return std::size_t(std::accumulate(sums.begin(), sums.end(), 0.0));
 }
 
 TessellatedObjects tessellateForReflector(const scene::WorldGeometry& geometry, std::uint32_t reflector,

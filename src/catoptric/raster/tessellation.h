@@ -103,8 +103,7 @@ class ReflectorTessellation {
   TessellationOptions options_;
   std::vector<std::uint8_t> wanted_, byRays_;  ///< the spans of options_
   ReflectorDistance distance_;
-  double pixelsPerUnit_ = 0;  ///< of the reflector on the screen
-  double askedFactor_ = 0;    ///< k, before the budget was looked at
+  double askedFactor_ = 0;  ///< k, before the budget was looked at
   double k_ = 0;
   std::size_t budget_ = 0;
   std::vector<PartPieces> pieces_;           ///< by part
@@ -116,5 +115,10 @@ class ReflectorTessellation {
 [[nodiscard]] TessellatedObjects tessellateForReflector(const scene::WorldGeometry& geometry,
                                                         std::uint32_t reflector,
                                                         const TessellationOptions& options = {});
+
+/// About how many triangles that would make, and where few are cut about as many vertices, in a tenth of the
+/// time: for a forecast of what it would cost. The budget is not asked for.
+[[nodiscard]] std::size_t estimateTriangles(const scene::WorldGeometry& geometry, std::uint32_t reflector,
+                                            const TessellationOptions& options = {});
 
 }  // namespace catoptric::raster

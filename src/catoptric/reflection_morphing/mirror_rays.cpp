@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "catoptric/scene/hierarchy_triangles.h"
 #include "catoptric/scene/shading.h"
 
 namespace catoptric::reflection_morphing {
@@ -11,17 +12,15 @@ namespace {
 constexpr double kLeastSegment = 1e-7;  // of the scene's radius
 
 std::vector<geometry::HierarchyTriangle> listTriangles(const scene::WorldGeometry& world, bool ofReflectors) {
-  std::vector<geometry::HierarchyTriangle> triangles;
-  for (std::uint32_t t = 0; t < world.triangleCount(); ++t) {
-    const std::uint32_t reflector = world.parts[world.triangleParts[t]].reflector;
-    if ((reflector != core::kNoId) != ofReflectors) continue;
-    const auto corner = [&](std::uint32_t k) { return world.positions[world.indices[3 * t + k]]; };
-    const bool isTwoSided =
-        !ofReflectors || world.reflectors[reflector].doubleSided || world.reflectors[reflector].isRefractor();
-    triangles.push_back(
-        {corner(0), corner(1), corner(2), t, world.triangleParts[t], isTwoSided ? geometry::kTwoSided : 0});
+  std::vector<std::uint32_t> flags;
+  flags.reserve(world.parts.size());
+  for (const scene::Part& part : world.parts) {
+    const bool isReflector = part.reflector != core::kNoId;
+    const bool isTwoSided = !isReflector || world.reflectors[part.reflector].doubleSided ||
+                            world.reflectors[part.reflector].isRefractor();
+    flags.push_back(isReflector != ofReflectors ? scene::kLeftOut : isTwoSided ? geometry::kTwoSided : 0u);
   }
-  return triangles;
+  return scene::listTriangles(world, flags);
 }
 
 }  // namespace

@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `auto` picks for a mirror, and why (docs/decisions.md, "What auto picks").
-//
-//   1. Flat: mirrored, exact at every pixel. A refractor: solver exact, the only one that knows Snell's law.
-//   2. A mirror of a few pixels: an environment map, where nothing moves. No error there is wider than the
-//      mirror.
-//   3. Convex: refined. One reflection point for every scene point, so that the error is the tessellation's,
-//      which --max-error bounds.
-//   4. Else: exact. The forecast (view_forecast.h) says how much of the mirror virtual objects would show
-//      right.
+#include "catoptric/renderer/choose_method.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "catoptric/geometry/nearest_hit.h"
-#include "catoptric/renderer/frame.h"
+#include "catoptric/raster/tessellation.h"
+#include "catoptric/renderer/expected_cost.h"
+#include "catoptric/renderer/expected_error.h"
 #include "catoptric/virtual_object/analytic_finder.h"
-#include "catoptric/virtual_object/mixed/view_forecast.h"
 
 namespace catoptric::renderer {
 namespace {
+
+constexpr std::size_t kSamples = 400;
+/// Of --max-error: the 95th percentile that refined is measured to have (virtual_object/README.md).
+constexpr double kRefinedShare = 0.05;
+constexpr double kVerticesPerTriangle = 0.7;  // of a tessellation, measured
+constexpr double kWorthIt = 0.8, kMargin = 0.8;
 
 MethodChoice chooseByShape(const scene::Reflector& reflector) {
   if (reflector.isRefractor())
@@ -31,18 +30,6 @@ MethodChoice chooseByShape(const scene::Reflector& reflector) {
   return {.solver = Solver::Exact,
           .reason =
               "not convex: a point may have several reflections, each pixel's ray meets the real triangles"};
-}
-
-geometry::TriangleHierarchy makeHierarchy(const scene::WorldGeometry& world) {
-  std::vector<geometry::HierarchyTriangle> triangles;
-  triangles.reserve(world.triangleCount());
-  for (std::uint32_t t = 0; t < world.triangleCount(); ++t) {
-    const std::uint32_t part = world.triangleParts[t];
-    const std::uint32_t* v = &world.indices[3 * std::size_t(t)];
-    triangles.push_back({world.positions[v[0]], world.positions[v[1]], world.positions[v[2]], t, part,
-                         world.parts[part].isSeenFromBehind ? geometry::kTwoSided : 0u});
-  }
-  return geometry::TriangleHierarchy(triangles);
 }
 
 /// Sums over the parts, weighted by pixels.
@@ -60,12 +47,12 @@ ViewForecast addUp(std::span<const virtual_object::PartForecast> parts) {
   return sum;
 }
 
-std::string describe(const ViewForecast& f) {
-  return fmt::format(
-      "; virtual objects, one for each of its {} parts, would show about {:.0f} % of what is seen in it, "
-      "{:.0f} % lies near "
-      "a focus and {:.0f} % is the mirror itself",
-      f.parts, 100 * f.oneToOne, 100 * f.nearFocus, 100 * f.self);
+std::string describe(const MethodCandidate& picked, std::span<const MethodCandidate> candidates,
+                     double maxErrorPx) {
+  const bool isCheapest = std::all_of(candidates.begin(), candidates.end(),
+                                      [&](const MethodCandidate& c) { return c.ms >= picked.ms; });
+  return fmt::format("of the ways below it is the cheapest{} is within --max-error {:.3g}",
+                     isCheapest ? " and its expected error" : " whose expected error", maxErrorPx);
 }
 
 }  // namespace
@@ -76,30 +63,137 @@ MethodChoice Renderer::chooseMethod(const scene::Reflector& reflector) {
   return choice;
 }
 
-MethodChooser::MethodChooser(const scene::WorldGeometry& geometry)
-    : geometry_(geometry), hierarchy_(makeHierarchy(geometry)) {}
+/// What depends on a mirror alone, and on the side of it that is seen.
+struct MethodChooser::Mirror {
+  Mirror(const scene::WorldGeometry& world, std::uint32_t index, bool isFromBehind)
+      : reflector(index),
+        mesh(world, index, {.flipped = isFromBehind}),
+        cut(virtual_object::cutIntoParts(mesh)) {}
+  std::uint32_t reflector;
+  virtual_object::ReflectorMesh mesh;
+  virtual_object::CutMirror cut;
+  std::map<std::pair<double, double>, double>
+      triangles;  ///< by size on the screen, bound: of the tessellation
+};
 
-MethodChoice MethodChooser::choose(std::uint32_t reflector, const scene::CameraFrame& camera) const {
+MethodChooser::MethodChooser(const scene::WorldGeometry& geometry,
+                             const geometry::TriangleHierarchy& triangles)
+    : geometry_(geometry), triangles_(triangles) {}
+MethodChooser::~MethodChooser() = default;
+
+MethodChooser::Mirror& MethodChooser::findMirror(std::uint32_t reflector, const dvec3& eye) {
+  const bool isFromBehind = virtual_object::isSeenFromBehind(geometry_, reflector, eye);
+  std::unique_ptr<Mirror>& mirror = mirrors_[{reflector, isFromBehind}];
+  if (!mirror) mirror = std::make_unique<Mirror>(geometry_, reflector, isFromBehind);
+  return *mirror;
+}
+
+double MethodChooser::findTriangles(Mirror& mirror, const scene::CameraFrame& camera,
+                                    const ChoiceOptions& options) const {
+  const double size =
+      raster::findTessellationSize(geometry_.reflectors[mirror.reflector], camera.eye, camera);
+  const auto [entry, isNew] = mirror.triangles.try_emplace({size, options.maxErrorPx}, 0);
+  if (isNew) {
+    const std::vector<std::uint8_t> byRays(geometry_.parts.size(), 1);
+    entry->second = double(raster::estimateTriangles(geometry_, mirror.reflector,
+                                                     {.maxErrorPx = std::min(options.maxErrorPx, kCoarsestPx),
+                                                      .reflectorDiameterPx = size,
+                                                      .isSeenDirectly = true,
+                                                      .shadedByRays = byRays,
+                                                      .levels = options.levels}));
+  }
+  return entry->second;
+}
+
+/// Which parts virtual objects would show, as VirtualObjectMethod::forecastParts() does.
+ViewForecast MethodChooser::forecastParts(Mirror& mirror, const scene::CameraFrame& camera,
+                                          const virtual_object::SceneRays& rays, MirrorLoad& load) const {
+  std::vector<const virtual_object::MirrorPart*> parts;
+  for (const virtual_object::MirrorPart& part : mirror.cut.parts) parts.push_back(&part);
+  const double pixelsPerTangent = 0.5 * camera.heightPx / camera.tanHalfFovY;
+  const auto forecasts = virtual_object::forecastView(parts, rays, camera.eye, pixelsPerTangent);
+  ViewForecast sum = addUp(forecasts);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const auto costs = virtual_object::expectCosts(forecasts[k], parts[k]->bend,
+                                                   std::size_t(kVerticesPerTriangle * load.triangles),
+                                                   parts[k]->mesh->ordinaryCount());
+    if (!forecasts[k].suitsVirtualObject() || costs.virtualMs >= costs.boundMs) continue;
+    load.partsMs += costs.virtualMs;
+    load.virtualShare += forecasts[k].pixels * forecasts[k].oneToOne / sum.pixels;
+  }
+  return sum;
+}
+
+/// Step 3.
+void MethodChooser::addCandidates(Mirror& mirror, const scene::CameraFrame& camera,
+                                  const ChoiceOptions& options, MethodChoice& choice) const {
+  const scene::Reflector& reflector = geometry_.reflectors[mirror.reflector];
+  const virtual_object::SceneRays rays{triangles_, geometry_.triangleParts, reflector.part};
+  const auto samples = virtual_object::sampleMirror(mirror.mesh, rays, camera, kSamples);
+  MirrorLoad load = measureLoad(mirror.mesh, rays, geometry_, camera.eye, samples);
+  load.triangles = findTriangles(mirror, camera, options);
+  ViewForecast forecast = forecastParts(mirror, camera, rays, load);
+  forecast.pixels = load.pixels, forecast.offered = load.offered, forecast.triangles = load.triangles;
+  choice.forecast = forecast;
+  if (samples.empty()) return;
+  const environment_map::MapView map(geometry_, triangles_, mirror.reflector, options.boxCorrected);
+  const MapError error = expectMapError(
+      {geometry_, mirror.reflector, mirror.mesh, rays, map, camera, options.mapTexels, options.bounces},
+      samples, options.withFigures ? kLostPx : options.maxErrorPx);
+  choice.candidates.push_back(
+      {Method::Environment, Solver::Auto, error.worstPx(), error.isAtLeast, expectMapMs(load)});
+  if (mirror.mesh.isConvex())
+    choice.candidates.push_back({Method::Virtual, Solver::Refined,
+                                 kRefinedShare * std::min(options.maxErrorPx, kCoarsestPx), false,
+                                 expectRefinedMs(load)});
+  else if (load.virtualShare > 0)
+    choice.candidates.push_back({Method::Virtual, Solver::Refined, 0, false, expectPartsMs(load)});
+  choice.candidates.push_back({Method::Virtual, Solver::Exact, 0, false, expectExactMs(load)});
+}
+
+MethodChoice MethodChooser::choose(std::uint32_t reflector, const scene::CameraFrame& camera,
+                                   const ChoiceOptions& options, const MethodChoice* last) {
   const scene::Reflector& mirror = geometry_.reflectors[reflector];
   MethodChoice choice = Renderer::chooseMethod(mirror);
+  // 1
   if (mirror.isPlanarMirror() || mirror.isRefractor()) return choice;
-  virtual_object::ReflectorMesh mesh(geometry_, reflector);
-  const virtual_object::CutMirror cut = virtual_object::cutIntoParts(mesh);
-  std::vector<const virtual_object::MirrorPart*> parts;
-  for (const virtual_object::MirrorPart& part : cut.parts) parts.push_back(&part);
-  const double pixelsPerTangent = 0.5 * camera.heightPx / camera.tanHalfFovY;
-  choice.forecast = addUp(virtual_object::forecastView(
-      parts, {hierarchy_, geometry_.triangleParts, mirror.part}, camera.eye, pixelsPerTangent));
-  const ViewForecast& forecast = *choice.forecast;
-  if (forecast.pixels > 0 && forecast.pixels < kFewPixels) {
+  addCandidates(findMirror(reflector, camera.eye), camera, options, choice);
+  const double pixels = choice.forecast->pixels;
+  if (choice.candidates.empty()) {
+    choice.reason += "; this camera does not see it";
+  } else if (pixels < kFewPixels) {  // 2
     choice.method = Method::Environment;
     choice.solver = Solver::Auto;
-    choice.reason = fmt::format("it covers about {:.0f} pixels, fewer than {}, and nothing has moved",
-                                forecast.pixels, kFewPixels);
-  } else if (!mirror.isConvex && forecast.pixels > 0) {
-    choice.reason += describe(forecast);
+    choice.reason = fmt::format("it covers about {:.0f} pixels, fewer than {}, and nothing has moved", pixels,
+                                kFewPixels);
+  } else {  // 4
+    const MethodCandidate& picked =
+        choice.candidates[pickCandidate(choice.candidates, options.maxErrorPx, last)];
+    choice.method = picked.method;
+    choice.solver = picked.solver;
+    choice.reason = describe(picked, choice.candidates, options.maxErrorPx);
   }
   return choice;
+}
+
+std::size_t pickCandidate(std::span<const MethodCandidate> candidates, double maxErrorPx,
+                          const MethodChoice* last) {
+  const auto findCheapest = [&](double bound) {
+    std::size_t best = candidates.size();
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+      if (candidates[i].errorPx <= bound && !candidates[i].isErrorAtLeast &&
+          (best == candidates.size() || candidates[i].ms < candidates[best].ms))
+        best = i;
+    return best;
+  };
+  const auto kept = std::find_if(candidates.begin(), candidates.end(), [&](const MethodCandidate& c) {
+    return last && c.method == last->method && c.solver == last->solver && c.errorPx <= maxErrorPx &&
+           !c.isErrorAtLeast;
+  });
+  if (kept == candidates.end()) return findCheapest(maxErrorPx);
+  const std::size_t better = findCheapest(kMargin * maxErrorPx);
+  const auto index = std::size_t(kept - candidates.begin());
+  return better < candidates.size() && candidates[better].ms < kWorthIt * kept->ms ? better : index;
 }
 
 }  // namespace catoptric::renderer

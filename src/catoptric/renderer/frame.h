@@ -16,7 +16,6 @@
 #include "catoptric/core/image.h"
 #include "catoptric/core/seen.h"
 #include "catoptric/depth_reflection_map/zexel_options.h"
-#include "catoptric/geometry/triangle_hierarchy.h"
 #include "catoptric/raster/mark_options.h"
 #include "catoptric/raster/merge.h"
 #include "catoptric/scene/camera_frame.h"
@@ -127,9 +126,19 @@ struct ElsewhereOptions {
 
 /// What virtual objects would show of a curved mirror (virtual_object/mixed/view_forecast.h); shares 0 to 1.
 struct ViewForecast {
-  std::size_t parts = 0;  ///< that bend one way
-  double pixels = 0;      ///< as if nothing stood before the mirror, nor the picture had a frame
+  std::size_t parts = 0;              ///< that bend one way
+  double pixels = 0;                  ///< that show it
+  double offered = 0, triangles = 0;  ///< MirrorLoad, from which times are expected
   double oneToOne = 0, nearFocus = 0, self = 0;
+};
+
+/// One way of drawing a curved mirror, and what is expected of it in a view (choose_method.h).
+struct MethodCandidate {
+  Method method = Method::Virtual;
+  Solver solver = Solver::Auto;
+  double errorPx = 0;  ///< 95th percentile, of mirror pixels or of those that show objects: the worse
+  bool isErrorAtLeast = false;  ///< past the bound, by how much was not asked
+  double ms = 0;                ///< of a frame in which nothing has moved, where OpenGL is software
 };
 
 /// Why a reflector is drawn the way it is; for `info`.
@@ -137,23 +146,9 @@ struct MethodChoice {
   Method method = Method::Virtual;
   Solver solver = Solver::Refined;
   std::string reason{};
-  std::string analytic{};                  ///< why solver Analytic cannot serve it; empty where it can
-  std::optional<ViewForecast> forecast{};  ///< of a curved mirror, where a view was asked for
-};
-
-/// `auto` draws curved mirrors of fewer pixels by environment maps of few texels, in scenes that do not move.
-inline constexpr int kFewPixels = 16;
-
-/// What `auto` picks for mirrors of a scene in a view. The geometry must outlive it.
-class MethodChooser {
- public:
-  explicit MethodChooser(const scene::WorldGeometry& geometry);
-  /// `reflector`: index into the geometry's. Takes some milliseconds for a curved mirror.
-  [[nodiscard]] MethodChoice choose(std::uint32_t reflector, const scene::CameraFrame& camera) const;
-
- private:
-  const scene::WorldGeometry& geometry_;
-  geometry::TriangleHierarchy hierarchy_;
+  std::string analytic{};                     ///< why solver Analytic cannot serve it; empty where it can
+  std::optional<ViewForecast> forecast{};     ///< of a curved mirror, where a view was asked for
+  std::vector<MethodCandidate> candidates{};  ///< likewise, the dearest last; empty where there is no choice
 };
 
 /// A GL context that renderers on this thread may share, one after the other. Worth making before the scene

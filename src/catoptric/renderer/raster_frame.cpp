@@ -12,7 +12,6 @@
 #include <limits>
 
 #include "catoptric/core/error.h"
-#include "catoptric/core/log.h"
 #include "catoptric/core/parallel.h"
 #include "catoptric/core/sample_pattern.h"
 #include "catoptric/depth_reflection_map/reference_file.h"
@@ -112,6 +111,7 @@ void RasterFrame::updateGeometry(std::span<const std::uint32_t> movedParts) {
   scene_.updateGeometry(movedParts);
   nearPlane_ = 0;
   hasMoved_ = true;
+  chooser_.reset();  // its triangles are out of date, and it is not asked any more
   primary_.geometryChanged();
   hits_.partsMoved(scene_, movedParts);
   for (raster::ReflectionMethod* method : methods_) method->partsMoved(geometry_, movedParts);
@@ -132,47 +132,6 @@ void RasterFrame::prepareLevels(int count, const FrameOptions& options) {
   if (!std::all_of(levels_.begin(), levels_.end(), isUsable)) levels_.clear();
   while (int(levels_.size()) < count)
     levels_.push_back(std::make_unique<raster::Level>(widthPx, heightPx, withStencil));
-}
-
-/// Hybrid reflectors (2004, section 7): large parts are morphed, small ones get environment maps, unless the
-/// user says otherwise.
-bool RasterFrame::isMapped(const raster::Chain& chain, const FrameOptions& options) const {
-  const scene::Reflector& mirror = geometry_.reflectors[chain.last];
-  const bool isSmall = chain.pixels < std::uint64_t(options.mappedBelowPixels);
-  const bool mapped = mirror.morphed ? !*mirror.morphed : isSmall;
-  if (mapped)
-    core::logInfo(fmt::format(
-        "reflector '{}': environment map, {}", mirror.name,
-        mirror.morphed ? "by " + mirror.morphedReason
-                       : fmt::format("{} pixels, fewer than {}", chain.pixels, options.mappedBelowPixels)));
-  return mapped;
-}
-
-raster::ReflectionMethod* RasterFrame::pickMethod(const raster::Chain& chain, const FrameOptions& options) {
-  if (options.method == Method::Environment) return &environment_;
-  if (chain.hasRefractor()) {
-    if (options.method == Method::Morphing && morphing_.supports(chain)) return &morphing_;
-    return &exact_;
-  }
-  if (options.method == Method::Zexel && zexel_.supports(chain)) return &zexel_;
-  const bool isMorphing = options.method == Method::Morphing;
-  if (isMorphing && chain.curved && isMapped(chain, options)) return &environment_;
-  const bool isAuto = options.solver == Solver::Auto;
-  if (isAuto && !isMorphing && chain.level == 1 && chain.curved && chain.pixels < std::uint64_t(kFewPixels) &&
-      !hasMoved_)
-    return &smallMaps_;
-  const bool needsExact =
-      chain.curved && Renderer::chooseMethod(geometry_.reflectors[*chain.curved]).solver == Solver::Exact;
-  // A vertex has a reflection point in one curved mirror; what two of them show is found by the pixels' rays.
-  const bool wantsExact = options.solver == Solver::Exact || (isAuto && needsExact) ||
-                          (chain.hasSecondCurved && (isAuto || options.solver == Solver::Refined));
-  if (!isMorphing && wantsExact && exact_.supports(chain)) return &exact_;
-  raster::ReflectionMethod* curved = &virtual_;
-  if (isMorphing) curved = &morphing_;
-  const std::array<raster::ReflectionMethod*, 3> table{&planar_, curved, &environment_};
-  for (raster::ReflectionMethod* candidate : table)
-    if (candidate->supports(chain)) return candidate;
-  return nullptr;
 }
 
 void RasterFrame::renderMirror(raster::ReflectionMethod& method, raster::FrameContext& context,
@@ -209,7 +168,9 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
                                .compose = compose_,
                                .nearPlane = findNearPlane(camera),
                                .jitterPx = jitterPx,
-                               .maxErrorPx = options.maxErrorPx,
+                               .maxErrorPx = options.method == Method::Auto
+                                                 ? std::min(options.maxErrorPx, kCoarsestPx)
+                                                 : options.maxErrorPx,
                                .merge = options.merge,
                                .textureScale = options.textureScale,
                                .allParts = options.allParts,
@@ -252,7 +213,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
     target.clear(findUnion(mirrors));
     target.drawnRects = std::move(mirrors.rects);
     for (const raster::Chain& chain : mirrors.chains) {
-      raster::ReflectionMethod* method = pickMethod(chain, options);
+      raster::ReflectionMethod* method = pickMethod(context, chain, options);
       if (method)
         renderMirror(*method, context, chain, parent, target);
       else

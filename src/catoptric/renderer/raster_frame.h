@@ -13,6 +13,7 @@
 #include "catoptric/planar_mirror/planar_mirror_method.h"
 #include "catoptric/reflection_morphing/reflection_morphing_method.h"
 #include "catoptric/renderer/chain_finder.h"
+#include "catoptric/renderer/choose_method.h"
 #include "catoptric/renderer/frame.h"
 #include "catoptric/virtual_object/exact/exact_method.h"
 #include "catoptric/virtual_object/virtual_object_method.h"
@@ -50,7 +51,12 @@ class RasterFrame {
   void renderMirror(raster::ReflectionMethod& method, raster::FrameContext& context,
                     const raster::Chain& chain, const raster::Level& parent, raster::Level& target);
   [[nodiscard]] bool isMapped(const raster::Chain& chain, const FrameOptions& options) const;
-  [[nodiscard]] raster::ReflectionMethod* pickMethod(const raster::Chain& chain, const FrameOptions& options);
+  [[nodiscard]] raster::ReflectionMethod* pickMethod(const raster::FrameContext& context,
+                                                     const raster::Chain& chain, const FrameOptions& options);
+  /// What MethodChooser picks for a curved mirror that is seen directly, in a scene that has not moved.
+  [[nodiscard]] raster::ReflectionMethod* chooseByView(const raster::FrameContext& context,
+                                                       const raster::Chain& chain,
+                                                       const FrameOptions& options);
   /// Whether vertex shaders find virtual vertices; throws where they are asked for and cannot.
   [[nodiscard]] bool findsVerticesOnGpu(const FrameOptions& options) const;
   /// Opens the baked file, or makes ready to bake where the eye is.
@@ -86,6 +92,15 @@ class RasterFrame {
   std::string zexelFile_;  ///< that zexel_ was given
   bool hasMoved_ = false;
   bool numbersByGl_;
+  /// What was chosen for a mirror, and for which view.
+  struct Chosen {
+    MethodChoice choice;
+    dvec3 eye{0};
+    double pixelsPerTangent = 0;
+    ChoiceOptions options;
+  };
+  std::unique_ptr<MethodChooser> chooser_;  ///< made when first needed
+  std::map<std::uint32_t, Chosen> chosen_;  ///< by reflector
   /// All of them, in no order that matters.
   std::array<raster::ReflectionMethod*, 7> methods_{&planar_,      &virtual_,   &exact_,   &zexel_,
                                                     &environment_, &smallMaps_, &morphing_};

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "catoptric/virtual_object/make_point_finder.h"
+#include "catoptric/virtual_object/mixed/mirror_samples.h"
 
 namespace catoptric::virtual_object {
 
@@ -85,17 +86,7 @@ VirtualObjectMethod::Prepared& VirtualObjectMethod::prepareReflector(const raste
                                                                      const dvec3& drawEye) {
   const scene::WorldGeometry& world = frame.scene.geometry();
   const scene::Reflector& reflector = world.reflectors[*chain.curved];
-  bool flipped = false;
-  if (reflector.doubleSided) {  // which side does the eye see? the one most triangles turn to it
-    const scene::Part& part = world.parts[reflector.part];
-    double facing = 0;
-    for (std::uint32_t i = part.firstIndex; i < part.firstIndex + part.indexCount; ++i) {
-      const std::uint32_t v = world.indices[i];
-      const dvec3 toEye = drawEye - dvec3(world.positions[v]);
-      facing += glm::dot(dvec3(world.normals[v]), toEye) > 0.0 ? 1.0 : -1.0;
-    }
-    flipped = facing < 0;
-  }
+  const bool flipped = isSeenFromBehind(world, *chain.curved, drawEye);
   const double size = raster::findTessellationSize(reflector, drawEye, frame.camera);
   const bool isMirrored = chain.drawFromWorld != dmat4(1.0);
   const Drawing drawing = findDrawing(chain, world);

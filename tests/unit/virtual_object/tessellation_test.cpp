@@ -63,6 +63,17 @@ TEST(Tessellation, keepsAreaSourcesAndParts) {
 
 /// Every edge has its reverse, or lies on the outline of the world's own open edges: compared by exact
 /// positions.
+TEST(Tessellation, isEstimatedWithoutBeingMade) {
+  const TestWorld world = makeWorld();
+  for (const double error : {0.1, 0.5, 4.0, 100.0}) {
+    const TessellationOptions options{.maxErrorPx = error};
+    const double made = double(tessellateForReflector(world.geometry(), 0, options).indices.size()) / 3;
+    const double expected = double(estimateTriangles(world.geometry(), 0, options));
+    EXPECT_GT(expected, made / 1.7) << error;
+    EXPECT_LT(expected, made * 1.7) << error;
+  }
+}
+
 TEST(Tessellation, hasNoCracksEvenBetweenDuplicatedVertices) {
   const TestWorld world = makeWorld();
   const TessellatedObjects objects = tessellateForReflector(world.geometry(), 0);

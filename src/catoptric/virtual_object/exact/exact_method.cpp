@@ -5,21 +5,17 @@
 #include <chrono>
 #include <limits>
 
+#include "catoptric/scene/hierarchy_triangles.h"
+
 namespace catoptric::virtual_object {
 namespace {
 
-std::vector<geometry::HierarchyTriangle> listTriangles(const raster::SceneBuffers& scene) {
+std::vector<geometry::HierarchyTriangle> listCoverTriangles(const raster::SceneBuffers& scene) {
   const scene::WorldGeometry& world = scene.geometry();
-  std::vector<geometry::HierarchyTriangle> triangles;
-  triangles.reserve(world.triangleCount());
-  for (std::uint32_t p = 0; p < world.parts.size(); ++p) {
-    const scene::Part& part = world.parts[p];
-    const std::uint32_t flags = findCoverFlags(scene, p);
-    for (std::uint32_t i = part.firstIndex; i < part.firstIndex + part.indexCount; i += 3)
-      triangles.push_back({world.positions[world.indices[i]], world.positions[world.indices[i + 1]],
-                           world.positions[world.indices[i + 2]], i / 3, p, flags});
-  }
-  return triangles;
+  std::vector<std::uint32_t> flags;
+  flags.reserve(world.parts.size());
+  for (std::uint32_t p = 0; p < world.parts.size(); ++p) flags.push_back(findCoverFlags(scene, p));
+  return scene::listTriangles(world, flags);
 }
 
 }  // namespace
@@ -29,7 +25,7 @@ ExactMethod::ExactMethod(HitShading& shading)
 
 void ExactMethod::prepareScene(const raster::FrameContext& frame) {
   if (hierarchy_) return;
-  hierarchy_ = std::make_unique<TriangleHierarchy>(listTriangles(frame.scene));
+  hierarchy_ = std::make_unique<TriangleHierarchy>(listCoverTriangles(frame.scene));
   tiles_.emplace(*hierarchy_);
 }
 

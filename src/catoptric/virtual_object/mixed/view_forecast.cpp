@@ -42,12 +42,16 @@ Fate findFate(const MirrorTriangle& t, double radius, const SceneRays& scene, co
 
 }  // namespace
 
-std::array<double, 2> findFocalDistances(const MirrorTriangle& t, const dvec3& eye) {
+Pencil findPencil(const MirrorTriangle& t, const dvec3& eye, double u, double v) {
   const dvec3 r0 = reflectAt(t, 0, 0, eye), d1 = reflectAt(t, 1, 0, eye) - r0,
               d2 = reflectAt(t, 0, 1, eye) - r0;
-  const dvec3 r = r0 + (d1 + d2) / 3.0;
-  const double c0 = determinant(t.edge1, t.edge2, r), c2 = determinant(d1, d2, r),
-               c1 = determinant(d1, t.edge2, r) + determinant(t.edge1, d2, r);
+  const dvec3 r = r0 + u * d1 + v * d2;
+  return {determinant(t.edge1, t.edge2, r), determinant(d1, t.edge2, r) + determinant(t.edge1, d2, r),
+          determinant(d1, d2, r)};
+}
+
+std::array<double, 2> findFocalDistances(const MirrorTriangle& t, const dvec3& eye) {
+  const auto [c0, c1, c2] = findPencil(t, eye);
   std::array<double, 2> roots{kInfinite, kInfinite};
   const double discriminant = c1 * c1 - 4.0 * c0 * c2;
   if (discriminant < 0) return roots;

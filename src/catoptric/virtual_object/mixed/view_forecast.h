@@ -29,6 +29,15 @@
 
 namespace catoptric::virtual_object {
 
+/// The rays that leave a mirror triangle around a point of it, as X = J + t r: the area that they go through,
+/// for the parallelogram of the triangle's edges, is a quadratic in the distance t.
+struct Pencil {
+  double c0 = 0, c1 = 0, c2 = 0;
+  [[nodiscard]] double areaAt(double t) const { return c0 + t * (c1 + t * c2); }  ///< signed
+};
+[[nodiscard]] Pencil findPencil(const MirrorTriangle& triangle, const dvec3& eye, double u = 1.0 / 3,
+                                double v = 1.0 / 3);
+
 /// Distances at which the rays reflected by a triangle come to a focus; ascending, infinite where there is
 /// none.
 [[nodiscard]] std::array<double, 2> findFocalDistances(const MirrorTriangle& triangle, const dvec3& eye);
