@@ -126,7 +126,8 @@ TEST(PartPixels, holdEachRayAgainstItsTriangle) {
   world.positions = {{-1, -1, 2}, {1.05f, -1, 2}, {-1, 1.05f, 2},
                      {-1, -1, 3}, {-0.9f, -1, 3}, {-1, -0.9f, 3}};
   world.indices = {0, 1, 2, 3, 4, 5};
-  RayImages rays{.widthPx = 10, .heightPx = 10};
+  RayImages rays;
+  rays.widthPx = rays.heightPx = 10;
   for (int i = 0; i < 100; ++i) {
     const int column = i % 10, row = i / 10;
     rays.origins.emplace_back(0.01f * float(column), 0.01f * float(row), 0, 0);
