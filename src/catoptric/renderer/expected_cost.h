@@ -5,8 +5,9 @@
 // Out: milliseconds of a frame in which nothing has moved, on two cores of an AMD EPYC with a software OpenGL
 //      (llvmpipe), which is what the constants were fitted to; of use to compare ways, not to predict another
 //      machine, still less a GPU.
-// Source: `scripts/method_costs.py CATOPTRIC` prints what is expected beside what is measured, and the
-//      constants that a fit of this run would give.
+// Source: `scripts/method_expectations.py CATOPTRIC` prints what is expected beside what is measured, and the
+//      constants that a fit of this run would give. Those here were fitted by hand, at 960x720, before the
+//      processor drew the numbers of virtual triangles: refined may be cheaper now than they say.
 #pragma once
 
 #include <cstddef>

@@ -146,9 +146,10 @@ struct MethodChoice {
   Method method = Method::Virtual;
   Solver solver = Solver::Refined;
   std::string reason{};
-  std::string analytic{};                     ///< why solver Analytic cannot serve it; empty where it can
-  std::optional<ViewForecast> forecast{};     ///< of a curved mirror, where a view was asked for
-  std::vector<MethodCandidate> candidates{};  ///< likewise, the dearest last; empty where there is no choice
+  std::string analytic{};                  ///< why solver Analytic cannot serve it; empty where it can
+  std::optional<ViewForecast> forecast{};  ///< of a curved mirror, where a view was asked for
+  std::vector<MethodCandidate>
+      candidates{};  ///< likewise: map, refined, exact; empty where there is no choice
 };
 
 /// A GL context that renderers on this thread may share, one after the other. Worth making before the scene
