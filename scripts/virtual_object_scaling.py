@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """virtual_object_scaling.py CATOPTRIC [-o PLOT.svg] [--repeat N]: what reflections by virtual objects (solver refined) cost.
 
-Three sweeps, each with a slope fitted to logarithms: against reflected vertices (more mirrors, then finer --max-error), against
+Three sweeps, each with a slope fitted to logarithms: against reflected vertices (less to reflect, more mirrors, then finer --max-error), against
 reflectors (32 chrome balls, of which so many are mirrors), against pixels. Printed as tables, drawn side by side. Times are the reflection part of
 a frame, but for vertices, where they are those of finding virtual vertices; all as `bench` measures them."""
 import argparse
@@ -14,7 +14,10 @@ import tempfile
 
 from zexel_scaling import Glb
 
-MIRRORS_AND_ERRORS = ((1, 64), (1, 8), (2, 8), (4, 8), (8, 8), (16, 8), (32, 8), (32, 2), (32, 0.5), (32, 0.2))
+# Groups (a board, a pole and beads), balls, how many of them are mirrors, --max-error. All four groups and 32 balls, of which one is a
+# mirror and shows the others, have 4,000 virtual vertices before anything is cut: for fewer there is less to show.
+SCENES = ((1, 1, 1, 64), (4, 1, 1, 64), (4, 32, 1, 64), (4, 32, 1, 8), (4, 32, 2, 8), (4, 32, 4, 8), (4, 32, 8, 8), (4, 32, 16, 8),
+          (4, 32, 32, 8), (4, 32, 32, 2), (4, 32, 32, 0.5), (4, 32, 32, 0.2))
 SIZES = ("512x512", "960x720", "1280x960", "1920x1080", "2560x1440", "3840x2160")
 COUNTS = (1, 2, 4, 8, 16, 32)
 
@@ -27,20 +30,25 @@ def bench(catoptric, folder, scene, repeat, *options):
         return json.load(file)["results"][0]
 
 
-def write_balls(catoptric, folder):
-    """32 balls in place of the four of reflector-sweep, all like its finest one."""
+def is_left_out(name, groups):
+    thing, _, number = name.partition(" ")
+    return thing in ("ball", "partition") or thing in ("board", "pole", "bead") and int(number) > groups
+
+
+def write_balls(catoptric, folder, groups, balls):
+    """So many balls in place of the four of reflector-sweep, all like its finest one."""
     subprocess.run([catoptric, "scenes", "reflector-sweep", "-o", folder, "-q"], check=True)
     glb = Glb(os.path.join(folder, "reflector-sweep.glb"))
     scene = glb.json
     nodes, roots = scene["nodes"], scene["scenes"][0]["nodes"]
     mesh = next(node["mesh"] for node in nodes if node.get("name") == "ball 4")
-    gone = {i for i, node in enumerate(nodes) if node.get("name", "").startswith(("ball", "partition"))}
+    gone = {i for i, node in enumerate(nodes) if is_left_out(node.get("name", ""), groups)}
     scene["scenes"][0]["nodes"] = [i for i in roots if i not in gone]
-    for i in range(32):
+    for i in range(balls):
         scene["scenes"][0]["nodes"].append(len(nodes))
         nodes.append({"name": f"mirror {i + 1}", "mesh": mesh, "scale": [0.4] * 3,
                       "translation": [(i % 8 - 3.5) * 0.44, 0.2 + 0.4 * (i // 8), -0.35]})
-    path = os.path.join(folder, "balls.glb")
+    path = os.path.join(folder, f"balls-{groups}-{balls}.glb")
     glb.write(path)
     return path
 
@@ -85,17 +93,18 @@ def main():
     arguments.add_argument("--repeat", type=int, default=5)
     given = arguments.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        balls = write_balls(given.catoptric, folder)
+        full = write_balls(given.catoptric, folder, 4, 32)
 
-        def bench_balls(count, *options):
+        def bench_balls(scene, count, *options):
             named = [word for i in range(count) for word in ("--reflector", f"mirror {i + 1}")]
-            return bench(given.catoptric, folder, balls, given.repeat, *named, *options)
+            return bench(given.catoptric, folder, scene, given.repeat, *named, *options)
 
         vertices = []
-        for count, error in MIRRORS_AND_ERRORS:
-            row = bench_balls(count, "--max-error", str(error))
+        for groups, balls, count, error in SCENES:
+            scene = full if (groups, balls) == (4, 32) else write_balls(given.catoptric, folder, groups, balls)
+            row = bench_balls(scene, count, "--max-error", str(error))
             vertices.append((row["virtual_vertices"], 1000 * row["virtual_vertices"] / row["virtual_vertices_per_s"]))
-        reflectors = [(count, bench_balls(count)["reflection_ms"]) for count in COUNTS]
+        reflectors = [(count, bench_balls(full, count)["reflection_ms"]) for count in COUNTS]
         pixels = []
         for size in SIZES:
             x, y = map(int, size.split("x"))
