@@ -92,7 +92,9 @@ TEST(MirrorParts, everyTriangleOfAWaveIsInOneOfThem) {
   for (const MirrorPart& part : cut.parts) {
     triangles += part.corners.size() / 3;
     bends.insert(part.bend);
-    if (part.bend == Bend::Convex) EXPECT_TRUE(part.mesh->isConvex());
+    if (part.bend == Bend::Convex) {
+      EXPECT_TRUE(part.mesh->isConvex());
+    }
   }
   EXPECT_EQ(triangles, mesh.ordinaryCount());
   EXPECT_GT(cut.parts.size(), 3u);
