@@ -121,6 +121,7 @@ void ViewerLoop::askForFrame() {
   request.scale = inFull ? 1.0 : moving_.scale();
   request.options.maxErrorPx *= inFull ? 1.0 : findMovingError(request.scale);
   request.options.withSeen = withSeen;
+  request.options.isPassing = !inFull;
   request.options.drawsSeen = true;  // the first picture in full has nothing to compile after the coarse one
   request.options.widthPx = std::max(1, int(request.options.widthPx * request.scale));
   request.options.heightPx = std::max(1, int(request.options.heightPx * request.scale));

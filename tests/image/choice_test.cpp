@@ -144,6 +144,24 @@ TEST(Choice, doesNotFlicker) {
   EXPECT_EQ(pick(0.4, nullptr), 2u);
 }
 
+/// What was picked for a frame at rest serves while frames pass; before there was one, the shape decides.
+TEST(Choice, isNotAskedAboutWhileFramesPass) {
+  Room room = makeFarRoom();
+  const auto render = [&](double maxErrorPx, bool isPassing) {
+    return room.renderer
+        .render(room.camera, {.method = Method::Auto,
+                              .widthPx = Room::kWidth,
+                              .heightPx = Room::kHeight,
+                              .maxErrorPx = maxErrorPx,
+                              .isPassing = isPassing})
+        .counters.virtualVertices;
+  };
+  EXPECT_GT(render(20, true), 0u);
+  EXPECT_EQ(render(20, false), 0u);  // a map
+  EXPECT_EQ(render(0.01, true), 0u);
+  EXPECT_GT(render(0.01, false), 0u);
+}
+
 /// MapView says what a map shows, and environment_map.frag shows it.
 TEST(Choice, knowsWhatAMapShows) {
   Room room("columns");

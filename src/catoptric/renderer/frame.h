@@ -73,6 +73,9 @@ struct FrameOptions {
   /// Without `withSeen`: draw by the same programs all the same. Who draws both kinds of frames in turn has
   /// half as many to compile so; it costs a picture more that is written.
   bool drawsSeen = false;
+  /// Others follow at once, as while the eye is led by a mouse: `auto` stays with what it picked for the last
+  /// frame that was not passing, or goes by shape.
+  bool isPassing = false;
   /// RayTrace: once it is true, which any thread may make it, the frame ends early and is of no use.
   const std::atomic<bool>* cancel = nullptr;
 };

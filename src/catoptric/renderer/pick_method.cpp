@@ -59,22 +59,35 @@ raster::ReflectionMethod* RasterFrame::pickMethod(const raster::FrameContext& co
 
 raster::ReflectionMethod* RasterFrame::chooseByView(const raster::FrameContext& context,
                                                     const raster::Chain& chain, const FrameOptions& options) {
+  const MethodChoice choice =
+      options.isPassing ? lastChoice(chain.last) : askForChoice(context, chain.last, options);
+  if (choice.method == Method::Environment) return &environment_;
+  return choice.solver == Solver::Exact ? static_cast<raster::ReflectionMethod*>(&exact_) : &virtual_;
+}
+
+/// Of whatever view; by shape where none was asked about.
+MethodChoice RasterFrame::lastChoice(std::uint32_t reflector) const {
+  const auto found = chosen_.find(reflector);
+  return found != chosen_.end() ? found->second.choice
+                                : Renderer::chooseMethod(geometry_.reflectors[reflector]);
+}
+
+const MethodChoice& RasterFrame::askForChoice(const raster::FrameContext& context, std::uint32_t reflector,
+                                              const FrameOptions& options) {
   const scene::CameraFrame& camera = context.camera;
   const ChoiceOptions asked{options.maxErrorPx,         options.bounces,      options.boxCorrected,
                             options.environmentMapSize, scene_.levelsSoFar(), false};
   const double pixelsPerTangent = 0.5 * camera.heightPx / camera.tanHalfFovY;
   if (!chooser_) chooser_ = std::make_unique<MethodChooser>(geometry_, exact_.findHierarchy(context));
-  const auto found = chosen_.find(chain.last);
+  const auto found = chosen_.find(reflector);
   Chosen* last = found == chosen_.end() || found->second.options != asked ? nullptr : &found->second;
-  const double way = glm::length(camera.eye - geometry_.reflectors[chain.last].centre);
+  const double way = glm::length(camera.eye - geometry_.reflectors[reflector].centre);
   if (!last || last->pixelsPerTangent != pixelsPerTangent ||
       glm::length(camera.eye - last->eye) > kLeastMove * way) {
-    MethodChoice choice = chooser_->choose(chain.last, camera, asked, last ? &last->choice : nullptr);
-    chosen_[chain.last] = {std::move(choice), camera.eye, pixelsPerTangent, asked};
+    MethodChoice choice = chooser_->choose(reflector, camera, asked, last ? &last->choice : nullptr);
+    chosen_[reflector] = {std::move(choice), camera.eye, pixelsPerTangent, asked};
   }
-  const MethodChoice& choice = chosen_[chain.last].choice;
-  if (choice.method == Method::Environment) return &environment_;
-  return choice.solver == Solver::Exact ? static_cast<raster::ReflectionMethod*>(&exact_) : &virtual_;
+  return chosen_[reflector].choice;
 }
 
 }  // namespace catoptric::renderer

@@ -57,6 +57,9 @@ class RasterFrame {
   [[nodiscard]] raster::ReflectionMethod* chooseByView(const raster::FrameContext& context,
                                                        const raster::Chain& chain,
                                                        const FrameOptions& options);
+  [[nodiscard]] MethodChoice lastChoice(std::uint32_t reflector) const;
+  [[nodiscard]] const MethodChoice& askForChoice(const raster::FrameContext& context, std::uint32_t reflector,
+                                                 const FrameOptions& options);
   /// Whether vertex shaders find virtual vertices; throws where they are asked for and cannot.
   [[nodiscard]] bool findsVerticesOnGpu(const FrameOptions& options) const;
   /// Opens the baked file, or makes ready to bake where the eye is.
