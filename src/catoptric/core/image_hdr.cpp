@@ -4,19 +4,15 @@
 // Input: the bytes of a file that begins with "#?". Output: linear radiance, top row first.
 //
 // 1. The header is lines of text up to an empty one. FORMAT must be 32-bit_rle_rgbe. Each EXPOSURE line says
-// by what
-//    the pixels were multiplied, so they are divided by the product.
+//    by what the pixels were multiplied, so they are divided by the product.
 // 2. The resolution line: "-Y H +X W" has the top row first; other signs mirror the picture. Pictures stored
-// by
-//    columns (X before Y) are refused: nobody writes them.
+//    by columns (X before Y) are refused: nobody writes them.
 // 3. Each scan line is in one of two encodings. The new one starts with 2, 2, width: the four bytes of all
-// pixels
-//    follow as four planes of runs (length + 128, value) and literals (length, values). The old one is plain
-//    pixels in which the pixel (1, 1, 1, n) repeats the one before n times, n shifted left by 8 more for each
-//    such pixel in a row.
+//    pixels follow as four planes of runs (length + 128, value) and literals (length, values). The old one
+//    is plain pixels in which the pixel (1, 1, 1, n) repeats the one before n times, n shifted left by 8
+//    more for each such pixel in a row.
 // 4. A pixel (r, g, b, e) is (r, g, b) * 2^(e - 136), and black where e is 0. (Radiance's own reader adds
-// half a step
-//    to r, g and b. Other readers do not, and black next to a light would not be black.)
+//    half a step to r, g and b. Other readers do not, and black next to a light would not be black.)
 //
 // Failures: everything that does not fit, a file that ends early included, throws image.damaged.
 // Cost: linear; 8 MB of texels take about 20 ms.

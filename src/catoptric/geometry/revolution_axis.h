@@ -3,8 +3,8 @@
 //
 // Inputs: as shape_recognition.h. Every normal line of such a surface meets the axis. Steps:
 //   1. in Pluecker coordinates "two lines meet" is linear: d.(p x n) + m.n = 0 for an axis (d, m) and a
-//   vertex p
-//      with normal n; m eliminated, d is the eigenvector of the smallest eigenvalue of a 3 x 3 matrix,
+//      vertex p with normal n; m eliminated, d is the eigenvector of the smallest eigenvalue of a 3 x 3
+//      matrix,
 //   2. beside it the line through the vertices' mean along the mean normal: the better start where a shallow
 //      cap has normals computed from facets,
 //   3. an axis that the normals miss is none: a free-form mesh is told at once.

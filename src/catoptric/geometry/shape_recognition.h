@@ -4,9 +4,8 @@
 // Inputs: vertices of a triangle mesh, their unit normals and the triangles, any frame. Each fit
 //   1. solves for the shape by linear least squares on normals and positions (no starting value needed),
 //   2. sphere and cylinder: polishes the radius and centre on the distances themselves,
-//   3. measures the largest distance of a vertex from the shape and the largest angle between a vertex normal
-//   and
-//      the shape's.
+//   3. measures the largest distance of a vertex from the shape and the largest angle between a vertex
+//      normal and the shape's.
 // The caller compares the two with tolerances of its own. A fit is absent only where the system is singular
 // (a flat mesh has no sphere). Normals may all point to the other side: then the surface is the inner one
 // (isInside).

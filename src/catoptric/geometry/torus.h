@@ -3,8 +3,7 @@
 //
 // Inputs: as shape_recognition.h. Steps:
 //   1. the axis (revolution_axis.h); in the half plane beside it the vertices lie on a circle, by linear
-//   least
-//      squares,
+//      least squares,
 //   2. seven parameters polished on the vertices' distances (implicit_surface.h),
 //   3. deviation: distance to first order, and the angle between normal and gradient.
 // The circle may reach across the axis (a spindle): then its other part, mirrored, is a second sheet.

@@ -17,11 +17,11 @@
 //      L^2 / (16 c), a quarter of what the formula says. Where each pixel's own ray meets the triangle, and
 //      depth and interpolation add nothing, edges are therefore split at k (d + kByRays c), if the
 //      mirror is as large as kByRays c.
-//   3. Before a part is cut: one that is nowhere nearer than d is seen, in a mirror of focal length c, c / (d
-//   +
-//      c) times as large as on the mirror's surface. The coarsest level of detail is taken whose error is
-//      then at most kLevelShare of the bound. Where the part is a mirror, a turn of its normals by an angle
-//      counts as that angle times its radius; elsewhere it may be kLargestTurn, which shading does not show.
+//   3. Before a part is cut: one that is nowhere nearer than d is seen, in a mirror of focal length c, c /
+//      (d + c) times as large as on the mirror's surface. The coarsest level of detail is taken whose error
+//      is then at most kLevelShare of the bound. Where the part is a mirror, a turn of its normals by an
+//      angle counts as that angle times its radius; elsewhere it may be kLargestTurn, which shading does not
+//      show.
 //   4. Every triangle by itself: mark edges with L > k (d + c), d = (d_a + d_b - L) / 2, the least that the
 //      edge's points can be away from the reflector; split in two, three or four; repeat on the pieces. New
 //      vertices are shared within a part through a table of edges.

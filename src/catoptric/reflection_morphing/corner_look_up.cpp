@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Steps:
 //   1. Vertices outside of the shafts (ray_shaft.h) of both the first and the last location that has the
-//   trace
-//      are left alone.
+//      trace are left alone.
 //   2. The octree of the first location is asked for the others, 64 at a time. What it does not see the last
 //      location is asked for; what that does not see either is left alone.
 //   3. The other locations start from what the first or the last one has found (corner_batch.cpp).

@@ -9,15 +9,13 @@
 //      than the mirror (2004, section 7: small parts fall back to the map).
 //   3. Else three ways, each with its error (expected_error.h) and its time (expected_cost.h): an environment
 //      map; refined, by one virtual object on a convex mirror and by parts elsewhere; exact.
-//   4. The cheapest of those whose error is within the bound. While the eye moves, the way of the frame
-//   before
-//      is kept until its error is past the bound or another one is cheaper by kWorthIt and, a map, by
-//      kMargin of the bound within it: no flicker, and what is kept is within the bound, too.
+//   4. The cheapest of those whose error is within the bound. While the eye moves, the last frame's way is
+//      kept until its error is past the bound or another one is cheaper by kWorthIt and, a map, by kMargin of
+//      the bound within it: no flicker, and what is kept is within the bound, too.
 // Departures: 2004 sends chaotic parts to the map. Exact does not ask how many reflections a point has; parts
 //      where rays are all but random cost it no more than others (mixed/README.md), and a map is wrong there.
 // Where it is asked: for mirrors seen directly, in scenes in which nothing has moved. A mirror in a mirror,
-// and
-//      every mirror once something has moved, is drawn as its shape says: refined if convex, else exact.
+// and every mirror once something has moved, is drawn as its shape says: refined if convex, else exact.
 // Cost: about 1 ms a mirror and place of the eye (docs/decisions.md, "What auto picks").
 // Source: methods.md, section 1; our own.
 #pragma once

@@ -3,11 +3,9 @@
 //
 //   1. Base plus the morph targets times their weights: positions, normals, tangents.
 //   2. Skinned: moved by the weighted sum of the joints' matrices, which puts them into the world at once
-//   (glTF 2.0
-//      section 3.7.3.3; linear blend skinning); normals by the cofactors of its linear part.
+//      (glTF 2.0 section 3.7.3.3; linear blend skinning); normals by the cofactors of its linear part.
 //   3. Normals and tangents to unit length; where nothing is left of one, that of the base stands in.
-//   Primitives without normals
-//      take those of their triangles.
+//      Primitives without normals take those of their triangles.
 //
 // Cost: linear in vertices times (targets + joints), on all cores.
 #pragma once

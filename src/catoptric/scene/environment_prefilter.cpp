@@ -6,12 +6,11 @@
 // radiance(l) over the GGX lobe of a surface with normal n, seen from n, weighted by dot(n, l).
 // 1. Directions are drawn from the distribution of normals (Hammersley points): h, then l = 2 (n.h) h - n.
 // 2. Each sample stands for the solid angle 1 / (count * density); it reads the mip level whose texels are
-// about that
-//    large, so a few hundred give a smooth result even around the sun. Never a level finer than the result.
+//    about that large, so a few hundred give a smooth result even around the sun. Never a level finer than
+//    the result.
 // 3. The map and the lobe look the same from every column of a row: samples are turned into map coordinates
-// once per
-//    row, and each column adds its own u. This saves all arc functions and makes the cost that of the
-//    look-ups.
+//    once per row, and each column adds its own u. This saves all arc functions and makes the cost that of
+//    the look-ups.
 // Matte: irradiance / pi in nine spherical harmonics. Radiance is projected, and the bands 0, 1, 2 are
 // multiplied by the cosine lobe's 1, 2/3 and 1/4 (pi, 2pi/3, pi/4 over pi).
 //

@@ -2,8 +2,7 @@
 // Where every node stands at a time.
 //
 //   1. Each channel finds the key frames before and after the time and interpolates (glTF 2.0, appendix C):
-//   step;
-//      linear, the shorter great arc for rotations; Hermite spline with tangents times the key frames'
+//      step; linear, the shorter great arc for rotations; Hermite spline with tangents times the key frames'
 //      distance, rotations normalised afterwards. Before the first and after the last key frame the value
 //      stands still.
 //   2. Properties that no channel drives keep their rest value.

@@ -8,12 +8,10 @@
 // 2. Sun: a soft disc of 2 degrees and two exponential glows around it. Its peak is moderate (55), because a
 //    rasterizer without bloom shows a real sun (10^9) as nothing but aliasing.
 // 3. Clouds: fractal gradient noise on a flat ceiling, which perspective makes smaller towards the horizon.
-// It is a
-//    function of the direction, so the map has no seam at u = 0. Octaves that fall below two texels are faded
-//    out. Where the noise grows towards the sun, the cloud lies in its own shade.
+//    It is a function of the direction, so the map has no seam at u = 0. Octaves that fall below two texels
+//    are faded out. Where the noise grows towards the sun, the cloud lies in its own shade.
 // 4. Ground: a warm grey that darkens towards the nadir, joined to the air by haze, so that the horizon in a
-// chrome
-//    ball is a soft line.
+//    chrome ball is a soft line.
 //
 // No physics: Preetham's or Hosek's model is truer, but its horizon at this exposure is white and its ground
 // black. Cost: 2048x1024 in about 0.1 s on two cores. Noise after Perlin, "Improving Noise", 2002, in two

@@ -2,9 +2,8 @@
 // From instances of shared meshes to one set of world-space arrays.
 //
 //   1. For every instance and primitive: positions to world space in double, stored as float; normals by the
-//   inverse
-//      transpose; winding flipped where the transform mirrors; degenerate triangles dropped; bad normals
-//      recomputed.
+//      inverse transpose; winding flipped where the transform mirrors; degenerate triangles dropped; bad
+//      normals recomputed.
 //   2. Decide whether its material is a mirror (reflector_finding.h); split a mirror into its pieces.
 //   3. Name the reflectors, apply --reflector; what is not kept is drawn as an ordinary surface.
 //   4. Emit parts in the order of instances and primitives: ordinary triangles, then the reflectors.

@@ -6,13 +6,12 @@
 //      orthogonal to the view ray; such a vertex sends the ray straight on.
 //   2. Catch the rays on the sphere, take MapCoords of the direction from its centre.
 //   3. Fill triangles with a front-facing corner (front-facing and profile triangles; the skirt counts as
-//   well).
+//      well).
 //   4. ExtendMap: every edge of the filled region is pulled outwards beyond the circle and filled with its
-//   triangle's
-//      id and the extension bit. For a closed reflector these are the profile triangles' edges between two
-//      back-facing vertices, pulled away from the circle's centre as in the paper; for an open one the
-//      outermost edges of the skirt, pulled away from the middle of the region, which need not contain the
-//      circle's centre.
+//      triangle's id and the extension bit. For a closed reflector these are the profile triangles' edges
+//      between two back-facing vertices, pulled away from the circle's centre as in the paper; for an open
+//      one the outermost edges of the skirt, pulled away from the middle of the region, which need not
+//      contain the circle's centre.
 //   5. Pixels still empty (regions that are not star-shaped) take the id of the nearest filled pixel.
 //
 // Departures: steps 4 for open surfaces and 5, which make the circle complete whatever the shape; the map is

@@ -3,8 +3,7 @@
 // Rappoport 1998, section 5: implicit surfaces).
 //
 // World space, double. J is where the path |EJ| + |JQ| is stationary on f = 0 (Fermat):
-//   1. Once: seeds on the surface, spread over the mirror by place and by normal, each with its nearest
-//   others.
+//   1. Once: seeds on the surface, spread over the mirror by place and by normal, each with the nearest ones.
 //   2. A pair E, Q: at every seed the part of the path's gradient across the normal, times
 //      |EJ||QJ|/(|EJ|+|QJ|) (reflection_point.h says why); searches start at seeds where it is smaller than
 //      at all their neighbours but one.
@@ -12,9 +11,8 @@
 //      (G.n)/|grad f|, back onto the surface after each step, shortened where it does not help.
 //   4. What obeys the law, with E and Q on the bright side, and was not found before, is a reflection.
 //   5. Near a caustic two or three reflections lie within one seed's cell, in a row along the direction in
-//   which
-//      the path's second derivative is all but zero. So from where a search ends, found or stuck, the
-//      derivative is taken to both sides along that valley; a cubic through it says where others are.
+//      which the path hardly bends. So from where a search ends, found or stuck, the derivative is taken to
+//      both sides along that valley; a cubic through it says where others are.
 //   6. Between two minima lies a saddle, whose basin may hold no seed: where the path bends alike at two
 //      reflections, a search starts between them.
 // Any geometry/implicit_surface.h will do: quadrics, tori and aspheric mirrors are recognised and fitted.

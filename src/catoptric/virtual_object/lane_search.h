@@ -8,8 +8,7 @@
 //      step and is found: Newton's error goes with the square, so the step makes it vanish. Another takes its
 //      step and goes on.
 //   3. Steps that leave their triangle walk over the mesh, lane by lane (mesh_walk.h); past the end of an
-//   open
-//      mirror the last triangle is extrapolated, and a search that goes far out without a root is lost.
+//      open mirror the last triangle is extrapolated, and a search that goes far out without a root is lost.
 //   4. What is not easy - nearly touching the mirror, grazing, no quick convergence - is handed back for the
 //      double search. So what is found, and for which vertices, is what that one finds.
 //

@@ -8,8 +8,7 @@
 //      level of detail, that each was cut from. Most vertices can serve one triangle; where none of a
 //      triangle's corners is free, one is doubled.
 //   2. Each frame: triangles dropped that no pixel's centre lies in (most of them, where they are smaller
-//   than
-//      pixels: a rasterizer would take ten times as long to find out); virtual vertices copied to their
+//      than pixels: a rasterizer would take ten times as long to find out); virtual vertices copied to their
 //      doubles, numbers drawn with depth
 //   (virtual_triangle.frag).
 //   3. The image of numbers is read back and cut into small rectangles by part.

@@ -2,14 +2,12 @@
 // What a mirror cannot reflect, told for many vertices at once (methods.md, section 1, culling): the rays
 // that leave the mirror start in a ball and run in a cone of directions. Steps:
 //   1. Once: the vertices of the tessellated objects in runs of equal length, and for each run the ball
-//   around all
-//      triangles that have a corner in it. A run whose ball no ray meets can be left out: no triangle that
-//      loses its corner could have been seen.
+//      around all triangles that have a corner in it. A run whose ball no ray meets can be left out: no
+//      triangle that loses its corner could have been seen.
 //   2. For each eye: the ball of the mirror's front, the cone of its reflected rays.
 //   3. A ray meets a ball only if the angle from the cone's axis to the ball's centre, as seen from the
-//   middle of
-//      the mirror, is at most the cone's half angle and what both balls together cover, asin((r + R) /
-//      distance).
+//      middle of the mirror, is at most the cone's half angle and what both balls together cover, asin((r +
+//      R) / distance).
 // Exact in the sense that nothing is lost; a mirror that reflects all around, as a whole sphere does, culls
 // nothing. Cost: one angle for each run.
 #pragma once

@@ -2,14 +2,12 @@
 // Builds the mirror's triangles, welds them, finds neighbours, and adds the skirt.
 //
 //   1. Weld corners that are one point of one smooth surface (equal position, nearly equal normal): texture
-//   seams
-//      vanish, creases stay.
+//      seams vanish, creases stay.
 //   2. One record for each usable triangle: flat position, linear normal, inverse Gram matrix.
 //   3. Neighbours across edges that exactly two triangles share in opposite directions; others are boundary.
 //   4. Skirt: at every boundary vertex the outward direction b in the tangent plane and the change of the
-//   normal
-//      along b, both from the triangles there. Ring by ring the point moves along b while b and the normal
-//      turn at that rate, so a sphere's skirt stays on the sphere and a cylinder's on the cylinder.
+//      normal along b, both from the triangles there. Ring by ring the point moves along b while b and the
+//      normal turn at that rate, so a sphere's skirt stays on the sphere and a cylinder's on the cylinder.
 //   5. Bounding sphere by Badoiu & Clarkson's iteration (2003), centre from the body alone.
 //
 // Departures: a mitred corner of the boundary moves farther so that rings keep their width, at most twice.

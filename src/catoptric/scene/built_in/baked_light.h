@@ -4,12 +4,11 @@
 // this is what makes things stand on the floor.
 //
 // Inputs: convex solids that stand on or float above a plane y = height; metres.
-//   1. Sky: the cosine-weighted share of the hemisphere that a solid covers. Sphere: closed form (r/d)^2 cos.
-//   Convex
-//      polyhedron: Lambert's formula over its faces that look at the point (1760), exact.
+//   1. Sky: the cosine-weighted share of the hemisphere that a solid covers. Sphere: closed form (r/d)^2
+//      cos. Convex polyhedron: Lambert's formula over its faces that look at the point (1760), exact.
 //   2. Lamp: share of a disc of sample points around the lamp that the solids do not hide.
 //   3. Solids that cover less than 0.1 % are left out. Shares of several solids are multiplied as if
-//   independent.
+//      independent.
 // Departures: no interreflection; a solid partly below the plane is taken whole. Cost: about 2 microseconds a
 // point and solid.
 #pragma once

@@ -5,11 +5,10 @@
 //   2. Indices, each checked against the number of vertices; primitive restart is refused.
 //   3. Strips and fans become triangles (glTF 2.0 section 3.7.2.1 fixes their winding).
 //   4. Triangles with a NaN, infinite or huge (> 1e15) corner, or without area, are dropped and counted.
-//   5. No normals: vertices are split and each triangle gets its flat normal, as the specification says. Zero
-//   or
-//      NaN normals are replaced by the mean of their triangles' normals, weighted by area.
+//   5. No normals: vertices are split and each triangle gets its flat normal, as the specification says.
+//      Zero or NaN normals are replaced by the mean of their triangles' normals, weighted by area.
 //   6. Tangents, texture coordinates and colours are checked and repaired; vertices that nothing uses are
-//   removed.
+//      removed.
 //
 // Points and lines have no area: a point becomes an octahedron, a line a three-sided prism (points_lines.h).
 // Everything is charged to the memory budget before it is allocated. Cost: linear.

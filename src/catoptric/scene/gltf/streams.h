@@ -3,9 +3,8 @@
 // length.
 //   1. Read the attributes (POSITION, NORMAL, TANGENT, TEXCOORD_0 and 1, COLOR_0).
 //   2. Add the morph targets times their default weights.
-//   3. Skinned: move each vertex by the weighted sum of its joints' matrices, which puts it into the world at
-//   once
-//      (the node's own transform does not count, glTF 2.0 section 3.7.3.3).
+//   3. Skinned: move each vertex by the weighted sum of its joints' matrices, which puts it into the world
+//      at once (the node's own transform does not count, glTF 2.0 section 3.7.3.3).
 #pragma once
 
 #include <span>

@@ -7,14 +7,12 @@
 //   1. The reflected ray of every mirror pixel goes into two textures, once a level (exact_rays.frag).
 //   2. On the CPU: rectangles of pixels in which a triangle may be seen (tile_cover.h).
 //   3. Each rectangle is drawn; a fragment meets its ray with the real triangle, the depth buffer keeps the
-//   nearest one
-//      by the length of the ray (exact_hit.frag).
+//      nearest one by the length of the ray (exact_hit.frag).
 //   4. Part by part, what was met is shaded once at each pixel, with the functions that shade directly seen
-//   surfaces
-//      (exact_shade.frag). Derivatives of texture coordinates are those of the rays (Igehy 1999), not of the
-//      fragments.
+//      surfaces (exact_shade.frag). Derivatives of texture coordinates are those of the rays (Igehy 1999),
+//      not of the fragments.
 //   5. The environment behind it; blended triangles over it, from far to near as seen from the mirror's
-//   centre.
+//      centre.
 // Departures: methods.md bounds a virtual triangle by its three reflection points; tiles need none, so
 // chains, saddles
 //   and foci are no special cases.

@@ -4,17 +4,16 @@
 // In:  rays (world; origin, unit direction) of a tile of mirror pixels, and how far the scene reaches.
 // Out: a shaft in a frame (u, v, w) whose w is the mean direction, and tests of boxes and triangles against
 // it. Steps:
-//   1. Every ray is x(h) = x(0) + s h in its height h along w. The largest x of all rays is a convex function
-//   of h,
-//      so a straight line from its value at h = 0 to that at the far end bounds it from above, exactly at
-//      both ends, for rays that diverge, converge or cross. Four such planes and a near plane make the shaft.
+//   1. Every ray is x(h) = x(0) + s h in its height h along w. The largest x of all rays is a convex
+//      function of h, so a straight line from its value at h = 0 to that at the far end bounds it from
+//      above, exactly at both ends, for rays that diverge, converge or cross. Four such planes and a near
+//      plane make the shaft.
 //   2. A box is out if it lies beyond one of the five planes.
 //   3. A triangle is out if its corners do, or if one of its edges passes on the wrong side of all rays: in
-//   offsets from
-//      the ray at the corners' own heights, the side is the 2-D cross product of A' and B' - A', taken as
-//      intervals.
+//      offsets from the ray at the corners' own heights, the side is the 2-D cross product of A' and B' -
+//      A', taken as intervals.
 //   4. If all three sides are certain, the triangle covers the whole bundle; what is behind it cannot be
-//   seen.
+//      seen.
 // Departures: methods.md asks for a bounding shaft only; 3 and 4 are what makes large tiles affordable.
 // Known failure: directions more than about 70 degrees from their mean have no shaft; split the bundle.
 // Cost: about 10 ns a ray, 10 to 60 ns a triangle.

@@ -8,8 +8,7 @@
 //      missing, no ray of the rectangle meets it before something opaque.
 // Steps:
 //   1. The picture is cut into tiles; a tile's rays get a shaft (ray_shaft.h). Where they spread too far for
-//   one,
-//      the tile is cut into four.
+//      one, the tile is cut into four.
 //   2. Its triangles are those of the hierarchy, or of the tile it was cut from, that the shaft may meet.
 //   3. What lies behind a triangle that covers the whole tile is dropped.
 //   4. A tile with few triangles, or a small one, becomes rectangles; any other is cut into four.
