@@ -29,8 +29,7 @@ bool isDrawnExactly(const Model& model, const scene::Reflector& mirror) {
   const app::MethodVariant& variant = model.variants[model.view.variant];
   if (variant.solver == renderer::Solver::Exact) return true;
   return (variant.method == renderer::Method::Auto || variant.method == renderer::Method::Virtual) &&
-         variant.solver == renderer::Solver::Auto &&
-         renderer::Renderer::chooseMethod(mirror).solver == renderer::Solver::Exact;
+         variant.solver == renderer::Solver::Auto && model.choiceOf(mirror).solver == renderer::Solver::Exact;
 }
 
 /// Exposures: pixels that no zexel reached.

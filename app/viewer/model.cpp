@@ -22,4 +22,15 @@ renderer::FrameOptions Model::frameOptions(const ivec2& windowPx) const {
   return options;
 }
 
+renderer::MethodChoice Model::choiceOf(const scene::Reflector& reflector) const {
+  if (frame.frame && geometry) {
+    const auto& all = geometry->reflectors;
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const scene::Reflector& r) { return r.name == reflector.name; });
+    const auto choice = frame.frame->choices.find(std::uint32_t(found - all.begin()));
+    if (choice != frame.frame->choices.end()) return choice->second;
+  }
+  return renderer::Renderer::chooseMethod(reflector);
+}
+
 }  // namespace catoptric::viewer

@@ -116,6 +116,8 @@ struct Model {
   [[nodiscard]] bool truthIsCurrent() const { return truth && truth->view == frame.request.view; }
   /// The options of a frame that fills the window.
   [[nodiscard]] renderer::FrameOptions frameOptions(const ivec2& windowPx) const;
+  /// How `auto` draws it: as in the last frame, or else as its shape says.
+  [[nodiscard]] renderer::MethodChoice choiceOf(const scene::Reflector& reflector) const;
 };
 
 }  // namespace catoptric::viewer

@@ -46,7 +46,7 @@ void drawReflectorRow(Model& model, const scene::Reflector& reflector) {
   ImGui::TableNextColumn();
   ImGui::TextUnformatted(describeShape(reflector).c_str());
   ImGui::TableNextColumn();
-  const renderer::MethodChoice choice = renderer::Renderer::chooseMethod(reflector);
+  const renderer::MethodChoice choice = model.choiceOf(reflector);
   ImGui::TextUnformatted(
       reflector.shape == scene::ReflectorShape::Plane
           ? "planar mirror"

@@ -110,14 +110,6 @@ struct FrameCounters {
   std::uint64_t zexelCaptures = 0;    ///< reference images taken
 };
 
-struct Frame {
-  core::ImageRgbaF radiance;  ///< linear; alpha 1 (0 never occurs: the environment is behind everything)
-  core::SeenImage seen;       ///< empty unless asked for
-  core::FootprintImage footprints;  ///< RayTrace only
-  FrameTimings timings;
-  FrameCounters counters;
-};
-
 /// What of the last frame's method is looked at from elsewhere.
 struct ElsewhereOptions {
   std::uint32_t reflector = core::kNoId;  ///< the mirror whose method is looked at; left out of the scene
@@ -153,6 +145,16 @@ struct MethodChoice {
   std::optional<ViewForecast> forecast{};  ///< of a curved mirror, where a view was asked for
   std::vector<MethodCandidate>
       candidates{};  ///< likewise: map, refined, exact; empty where there is no choice
+};
+
+struct Frame {
+  core::ImageRgbaF radiance;  ///< linear; alpha 1 (0 never occurs: the environment is behind everything)
+  core::SeenImage seen;       ///< empty unless asked for
+  core::FootprintImage footprints;  ///< RayTrace only
+  FrameTimings timings;
+  FrameCounters counters;
+  /// Method Auto, while nothing has moved: what was picked for curved mirrors seen directly, by reflector.
+  std::map<std::uint32_t, MethodChoice> choices;
 };
 
 /// A GL context that renderers on this thread may share, one after the other. Worth making before the scene

@@ -351,6 +351,8 @@ Frame RasterFrame::render(const scene::CameraFrame& camera, const FrameOptions& 
     }
     readSeen(level, frame);
   }
+  if (options.method == Method::Auto && !hasMoved_)
+    for (const auto& [reflector, chosen] : chosen_) frame.choices.emplace(reflector, chosen.choice);
   return frame;
 }
 
