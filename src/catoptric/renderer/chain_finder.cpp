@@ -28,7 +28,7 @@ void searchRows(std::span<const uvec2> ids, int width, const gl::Scissor& bounds
                 std::vector<std::uint8_t>& isShown, ChainFinder::Rows& rows) {
   rows.extents.clear(), rows.rects.clear();
   const int xEnd = bounds.x + bounds.width;
-  isShown.assign(std::size_t(xEnd / kColumnsEach + 2), 0);
+  isShown.assign(std::size_t(xEnd / kColumnsEach) + 2, 0);
   for (int y = bounds.y; y < bounds.y + bounds.height; ++y) {
     const uvec2* row = ids.data() + std::ptrdiff_t(y) * width;
     for (int x = bounds.x; x < xEnd;) {
