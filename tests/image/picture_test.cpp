@@ -225,6 +225,20 @@ TEST(Picture, mirrorsThatNothingFollowsBesideGlass) {
       {24, 0.25, "solver exact: rounding, and rims, where the whole room is squeezed into one pixel"});
 }
 
+// A frame that need not say what is seen stores less, and composes without ids.
+TEST(Picture, isTheSameWhetherItSaysWhatIsSeen) {
+  for (const char* name : {"polyhedra-and-sphere", "lenses", "mixed"})
+    for (const int bounces : {1, 2}) {
+      const LoadedScene& subject = builtIn(name);
+      renderer::Renderer renderer(subject.scene, subject.world, sky());
+      renderer::FrameOptions options{.widthPx = 120, .heightPx = 90, .bounces = bounces};
+      const core::ImageRgbaF said = renderer.render(subject.scene.cameras.front(), options).radiance;
+      options.withSeen = false;
+      const core::ImageRgbaF unsaid = renderer.render(subject.scene.cameras.front(), options).radiance;
+      EXPECT_TRUE(std::ranges::equal(said.pixels(), unsaid.pixels())) << name << ", " << bounces;
+    }
+}
+
 // A baseline where the truth cannot judge: both renderers share their shading, sky and tone mapping, so a
 // change there changes both alike. CATOPTRIC_WRITE_BASELINES=1 writes it anew; look at it before it is kept.
 TEST(Picture, shadingIsAsItWas) {

@@ -7,7 +7,7 @@
 //      the point, the point is mirrored there (formulas::mirrorHiddenPoint(), README "Points without a
 //      reflection").
 //
-// What VirtualObjectSolver::findHidingPoint() says of one point surely, in float. Cost: 30 ns a point.
+// What VirtualObjectSolver::findHidingPoint() says of one point surely, in float.
 #include <cmath>
 
 #include "catoptric/virtual_object/lane_map.h"
