@@ -214,13 +214,13 @@ TEST_F(Backend, picturesAreTheSame) {
 
 /// Both round corners to 1/256 of a pixel; what is left are pixels whose centres lie on an edge so rounded,
 /// or where two surfaces are equally near: a sliver.
-TEST_F(Backend, theProcessorDrawsTheNumbersThatGlDraws) {
+void checkThatTheProcessorDrawsAsGl(gl::Context& context, renderer::Solver solver) {
   constexpr int kSizePx = 240;
   const reference::TracedTestScene t = makeScene();
-  renderer::RasterFrame raster(GlTest::context(), t.scene, t.world, t.environment);
+  renderer::RasterFrame raster(context, t.scene, t.world, t.environment);
   renderer::FrameOptions options;
   options.method = renderer::Method::Virtual;
-  options.solver = renderer::Solver::Refined;
+  options.solver = solver;
   options.widthPx = options.heightPx = kSizePx;
   options.bounces = 3;
   const auto countDifferent = [&](const renderer::Frame& a, const renderer::Frame& b, std::size_t& mirrors) {
@@ -252,6 +252,14 @@ TEST_F(Backend, theProcessorDrawsTheNumbersThatGlDraws) {
   turned.target.x += 0.1 * 2 * std::tan(0.5 * t.camera.fovYRadians) * 3.2 / kSizePx;
   const renderer::Frame off = raster.render(scene::makeCameraFrame(turned, kSizePx, kSizePx), options);
   EXPECT_GT(countDifferent(byGl, off, mirrors), mirrors / 500);
+}
+
+TEST_F(Backend, theProcessorDrawsTheNumbersThatGlDraws) {
+  checkThatTheProcessorDrawsAsGl(GlTest::context(), renderer::Solver::Refined);
+}
+
+TEST_F(Backend, theProcessorMeetsTheTrianglesThatGlMeets) {
+  checkThatTheProcessorDrawsAsGl(GlTest::context(), renderer::Solver::Exact);
 }
 
 TEST_F(Backend, aSolverWithoutAVertexShaderIsRefused) {

@@ -325,6 +325,7 @@ Frame RasterFrame::render(const scene::CameraFrame& camera, const FrameOptions& 
   const int samples = std::max(1, options.samples);
   prepareLevels(1, options);
   virtual_.setSolver(virtualObjectSolver(options.solver), findsVerticesOnGpu(options), numbersByGl_);
+  exact_.testByGl(numbersByGl_);
   if (options.method == Method::Morphing) prepareMorphing(camera.eye, options);
   zexel_.setOptions(options.zexel);
   if (options.method == Method::Zexel) prepareZexels(options);

@@ -82,6 +82,8 @@ class HitShading {
 
   /// Distance along a ray to depth: 1 is a little beyond the scene's far end.
   void setReach(double reach);
+  /// The depth at which exact_hit.frag stores a hit, over its distance.
+  [[nodiscard]] float depthFromDistance() const { return depthFromDistance_; }
 
  private:
   /// Rays and hits of a picture of one size.

@@ -27,6 +27,7 @@ void ExactMethod::prepareScene(const raster::FrameContext& frame) {
   if (hierarchy_) return;
   hierarchy_ = std::make_unique<TriangleHierarchy>(listCoverTriangles(frame.scene));
   tiles_.emplace(*hierarchy_);
+  tileHits_.emplace(*hierarchy_);
 }
 
 void ExactMethod::readRays(const raster::Level& parent, const gl::Scissor& bounds) {
@@ -82,13 +83,21 @@ CoverQuery ExactMethod::makeQuery(const raster::FrameContext& frame, const raste
 
 void ExactMethod::drawHits(raster::FrameContext& frame, const raster::Chain& chain,
                            const raster::Level& parent, const CoverQuery& query, PartImage* image) {
-  shading_.beginHits(chain.bounds);
+  if (testsByGl_) {
+    shading_.beginHits(chain.bounds);
+  } else {
+    shading_.uploadHits(chain.bounds, hits_.hits, hits_.depths);
+    if (cover_.masked.empty()) return;
+    shading_.continueHits(chain.bounds);
+  }
   if (image) image->closeDone(chain.bounds);
   gl::setDrawState({.depthTest = true, .depthWrite = true});
-  hitProgram_.use();
-  shading_.bindInputs(hitProgram_, parent, chain);
-  hitProgram_.set("u_ownPart", query.ownPart);
-  shading_.drawRects(cover_.opaque);
+  if (testsByGl_) {
+    hitProgram_.use();
+    shading_.bindInputs(hitProgram_, parent, chain);
+    hitProgram_.set("u_ownPart", query.ownPart);
+    shading_.drawRects(cover_.opaque);
+  }
   const std::vector<std::uint32_t>& parts = frame.scene.geometry().triangleParts;
   std::stable_sort(cover_.masked.begin(), cover_.masked.end(),
                    [&](const CoverRect& s, const CoverRect& t) { return parts[s.item] < parts[t.item]; });
@@ -142,7 +151,10 @@ const RayImages& ExactMethod::findRays(const raster::FrameContext& frame, const 
 void ExactMethod::findCover(raster::FrameContext& frame, const CoverQuery& query) {
   const auto start = std::chrono::steady_clock::now();
   shading_.setReach(query.reach);
-  tiles_->compute(rays_, query, cover_);
+  if (testsByGl_)
+    tiles_->compute(rays_, query, cover_);
+  else
+    tileHits_->compute(rays_, query, shading_.depthFromDistance(), cover_, hits_);
   const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
   frame.counters.virtualVerticesMs += spent.count();
   frame.counters.virtualTriangles += cover_.opaque.size() + cover_.masked.size() + cover_.blended.size();

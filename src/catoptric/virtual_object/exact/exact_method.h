@@ -7,7 +7,8 @@
 //   1. The reflected ray of every mirror pixel goes into two textures, once a level (exact_rays.frag).
 //   2. On the CPU: rectangles of pixels in which a triangle may be seen (tile_cover.h).
 //   3. Each rectangle is drawn; a fragment meets its ray with the real triangle, the depth buffer keeps the
-//      nearest one by the length of the ray (exact_hit.frag).
+//      nearest one by the length of the ray (exact_hit.frag). Where GL is software the processor does the
+//      same in step 2, tile by tile (tile_hits.h), and GL draws only what a texture may cut out.
 //   4. Part by part, what was met is shaded once at each pixel, with the functions that shade directly seen
 //      surfaces (exact_shade.frag). Derivatives of texture coordinates are those of the rays (Igehy 1999),
 //      not of the fragments.
@@ -29,6 +30,7 @@
 
 #include "catoptric/raster/reflection_method.h"
 #include "catoptric/virtual_object/exact/tile_cover.h"
+#include "catoptric/virtual_object/exact/tile_hits.h"
 #include "catoptric/virtual_object/hit_shading.h"
 #include "catoptric/virtual_object/mixed/part_image.h"
 
@@ -38,11 +40,14 @@ class ExactMethod : public raster::ReflectionMethod {
  public:
   /// `shading` must outlive the method.
   explicit ExactMethod(HitShading& shading);
+  /// Whether GL tests opaque triangles; else the processor does.
+  void testByGl(bool byGl) { testsByGl_ = byGl; }
   [[nodiscard]] std::string_view name() const override { return "virtual"; }
   [[nodiscard]] bool supports(const raster::Chain& chain) const override { return chain.curved.has_value(); }
   void prepare(raster::FrameContext&) override {}
   void geometryChanged() override {
     tiles_.reset();
+    tileHits_.reset();
     hierarchy_.reset();
   }
   void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
@@ -85,8 +90,11 @@ class ExactMethod : public raster::ReflectionMethod {
   gl::Program hitProgram_;
   std::unique_ptr<TriangleHierarchy> hierarchy_;
   std::optional<TileCover> tiles_;
+  std::optional<TileHits> tileHits_;
   RayImages rays_;
   Cover cover_;
+  HitImage hits_;
+  bool testsByGl_ = true;
 };
 
 }  // namespace catoptric::virtual_object

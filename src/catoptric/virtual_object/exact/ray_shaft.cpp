@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace catoptric::virtual_object {
 namespace {
@@ -97,6 +98,13 @@ bool RayShaft::mayMeet(const vec3& lower, const vec3& upper) const {
   for (std::size_t i = 0; i < planes_.size(); ++i)
     if (glm::dot(planes_[i], middle) - glm::dot(glm::abs(planes_[i]), half) > limits_[i]) return false;
   return true;
+}
+
+double RayShaft::findNearest(const vec3& lower, const vec3& upper) const {
+  if (!mayMeet(lower, upper)) return std::numeric_limits<double>::infinity();
+  const dvec3 middle = 0.5 * (dvec3(lower) + dvec3(upper)) - centre_,
+              half = 0.5 * (dvec3(upper) - dvec3(lower));
+  return glm::dot(frame_.w, middle) - glm::dot(glm::abs(frame_.w), half);
 }
 
 std::optional<ShaftHit> RayShaft::mayMeet(const vec3& worldA, const vec3& worldB, const vec3& worldC,

@@ -20,6 +20,7 @@
 // Source: shafts after Haines & Wallace 1991.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -46,8 +47,15 @@ class RayShaft {
   /// origin.
   [[nodiscard]] static std::optional<RayShaft> find(const RaySpan& rays, double reach);
 
+  /// Height above the shaft's foot by which all rays have begun; what is met at a height h is farther than
+  /// h - latestStart() from the ray's origin.
+  [[nodiscard]] double latestStart() const { return latestStart_; }
+  /// By how much the shaft widens to one side, along u or v, over its height.
+  [[nodiscard]] double spread() const { return std::max(slope_.half.x, slope_.half.y); }
   /// May a ray meet the box?
   [[nodiscard]] bool mayMeet(const vec3& lower, const vec3& upper) const;
+  /// The height of the box's nearest corner, or infinity if no ray may meet the box.
+  [[nodiscard]] double findNearest(const vec3& lower, const vec3& upper) const;
   /// May a ray meet the triangle, at its front only if `singleSided`?
   [[nodiscard]] std::optional<ShaftHit> mayMeet(const vec3& a, const vec3& b, const vec3& c,
                                                 bool singleSided) const;
