@@ -8,6 +8,7 @@ const float kPi = 3.14159265358979f;
 struct Surface {
   vec3 position;
   vec3 normal;       // unit, shading normal on the side of the viewer
+  vec3 coatNormal;   // unit, of the clear coat: normal maps are those of what lies below it
   vec3 toViewer;     // unit
   vec3 baseColor;
   vec3 emissive;
@@ -46,9 +47,8 @@ CATOPTRIC_FN vec3 surfaceF0(Surface s) {
 
 /// What part of the mirrored radiance a reflector adds, per colour channel: tint, Schlick Fresnel, reflectivity.
 CATOPTRIC_FN vec3 mirrorWeight(Surface s) {
-  float cosTheta = dot(s.normal, s.toViewer);
-  vec3 metal = fresnelSchlick(surfaceF0(s), cosTheta) * s.reflectivity;
-  vec3 coat = fresnelSchlick(vec3(0.04f), cosTheta) * s.clearcoat;
+  vec3 metal = fresnelSchlick(surfaceF0(s), dot(s.normal, s.toViewer)) * s.reflectivity;
+  vec3 coat = fresnelSchlick(vec3(0.04f), dot(s.coatNormal, s.toViewer)) * s.clearcoat;
   return coat + (vec3(1.0f) - coat) * metal;
 }
 
@@ -127,7 +127,7 @@ CATOPTRIC_FN vec3 shadeAmbient(Surface s, vec3 irradiance, vec3 prefiltered) {
 CATOPTRIC_FN vec3 shadeSurface(Surface s, vec3 direct, vec3 irradiance, vec3 prefiltered) {
   if (s.eta > 1.0f) return s.emissive;
   vec3 base = direct + shadeAmbient(s, irradiance, prefiltered);
-  vec3 coat = fresnelSchlick(vec3(0.04f), dot(s.normal, s.toViewer)) * s.clearcoat;
+  vec3 coat = fresnelSchlick(vec3(0.04f), dot(s.coatNormal, s.toViewer)) * s.clearcoat;
   base = base * (vec3(1.0f) - coat);
   // A half-silvered metal shows its base colour, lit as if it were paint, by 1 - reflectivity.
   float paint = s.reflectivity > 0.0f ? (1.0f - s.reflectivity) * s.metallic : 0.0f;

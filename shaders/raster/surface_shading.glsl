@@ -88,6 +88,8 @@ ShadedPoint shadePoint(SurfacePoint p, vec3 normal, vec3 baseColor) {
   s.position = p.position;
   s.toViewer = p.toViewer;
   s.normal = normal;
+  s.coatNormal = normal;
+  if (hasTexture(2)) s.coatNormal = normalize(p.isFront ? p.normal : -p.normal);
   s.baseColor = baseColor;
   s.emissive = m_emissive.rgb;
   if (hasTexture(4)) s.emissive *= readSlot(u_emissive, 4, p).rgb;
@@ -108,12 +110,12 @@ ShadedPoint shadePoint(SurfacePoint p, vec3 normal, vec3 baseColor) {
 
   ShadedPoint shaded;
   shaded.isTotal = false;
-  shaded.mirrorDirection = reflect(-s.toViewer, s.normal);
+  shaded.mirrorDirection = reflect(-s.toViewer, s.clearcoat > 0.0f ? s.coatNormal : s.normal);
   shaded.radiance = s.baseColor;  // unlit
   shaded.weight = vec3(0.0f);
   if (m_more.y > 0.5f) return shaded;
   vec3 direct = shadeLights(s);
-  vec3 prefiltered = s.reflectivity > 0.0f ? vec3(0.0f) : lookUpPrefiltered(shaded.mirrorDirection, s.roughness);
+  vec3 prefiltered = s.reflectivity > 0.0f ? vec3(0.0f) : lookUpPrefiltered(reflect(-s.toViewer, s.normal), s.roughness);
   shaded.radiance = shadeSurface(s, direct, lookUpIrradiance(s.normal), prefiltered);
   if ((u_reflectorWord & 0xffffu) != 0u) shaded.weight = s.eta > 0.0f ? refractionWeight(s) : mirrorWeight(s);
   if (s.eta > 0.0f) {

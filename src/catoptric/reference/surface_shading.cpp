@@ -202,9 +202,14 @@ ShadingNormal SurfaceShader::computeNormal(const Hit& hit) const {
     result.change = {dvec3(0), dvec3(0)};
   }
   const ShadingMaterial& m = material(hit);
+  const std::uint32_t reflector = geometry_.parts[hit.part].reflector;
+  result.mirror = result.normal;
   if (m.normal.texture != nullptr) result.normal = perturbNormal(m, hit, result.normal);
+  if (reflector == core::kNoId || !(geometry_.reflectors[reflector].clearcoat > 0))
+    result.mirror = result.normal;
   if (!hit.isFront) {
     result.normal = -result.normal;
+    result.mirror = -result.mirror;
     result.change = {-result.change.dx, -result.change.dy};
   }
   return result;
@@ -225,6 +230,7 @@ Shaded SurfaceShader::shade(const Ray& ray, const Hit& hit, const ShadingNormal&
   s.position = vec3(hit.position);
   s.toViewer = vec3(-ray.direction);
   s.normal = vec3(normal.normal);
+  s.coatNormal = vec3(normal.mirror);
   s.emissive = m.source->emissive;
   if (m.emissive.texture != nullptr) s.emissive *= vec3(sample(m.emissive, hit));
   s.metallic = m.source->metallic;

@@ -45,6 +45,7 @@ struct Shaded {
 /// Shading normal on the viewer's side; computeNormal() sets every member.
 struct ShadingNormal {
   dvec3 normal;
+  dvec3 mirror;            ///< what rays are mirrored at: a clear coat's has no normal map
   PerPixel<dvec3> change;  ///< of the interpolated normal; a normal map's own change is left out
 };
 

@@ -20,16 +20,16 @@ PerPixel<vec3> toFloat(const PerPixel<dvec3>& change) {
   return {vec3(change.dx), vec3(change.dy)};
 }
 
-/// The mirrored ray; the mirror law at the interpolated, normal-mapped normal.
+/// The mirrored ray; the mirror law at the interpolated normal, normal-mapped unless it is a coat's.
 Ray mirrorRay(const Ray& ray, const Hit& hit, const ShadingNormal& normal) {
   Ray mirrored;
   mirrored.origin = hit.position;
-  mirrored.direction = glm::normalize(core::reflectDirection(ray.direction, normal.normal));
+  mirrored.direction = glm::normalize(core::reflectDirection(ray.direction, normal.mirror));
   const PerPixel<dvec3>& change = ray.differential.direction;
   mirrored.differential.origin = hit.positionChange;
   mirrored.differential.direction = {
-      reflectDerivative(ray.direction, change.dx, normal.normal, normal.change.dx),
-      reflectDerivative(ray.direction, change.dy, normal.normal, normal.change.dy)};
+      reflectDerivative(ray.direction, change.dx, normal.mirror, normal.change.dx),
+      reflectDerivative(ray.direction, change.dy, normal.mirror, normal.change.dy)};
   return mirrored;
 }
 

@@ -141,7 +141,7 @@ void measurePart(const Scene& scene, const WorldGeometry& world, const Part& par
                                 std::span(world.normals).subspan(part.firstVertex, part.vertexCount),
                                 indices};
   measureReflector(reflector, mesh, instance.hint.shape ? instance.hint.shape : material.hint.shape,
-                   material.normalTexture.texture >= 0, options);
+                   material.normalTexture.texture >= 0 && !(reflector.clearcoat > 0), options);
 }
 
 /// extras.catoptric.morphed of the node, else of the material.

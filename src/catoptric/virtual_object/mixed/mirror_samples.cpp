@@ -61,12 +61,16 @@ bool isSeenFromBehind(const scene::WorldGeometry& world, std::uint32_t reflector
   const scene::Reflector& mirror = world.reflectors[reflector];
   if (!mirror.doubleSided) return false;
   const scene::Part& part = world.parts[mirror.part];
-  std::int64_t facing = 0;
-  for (std::uint32_t i = part.firstIndex; i < part.firstIndex + part.indexCount; ++i) {
-    const std::uint32_t v = world.indices[i];
-    facing += glm::dot(dvec3(world.normals[v]), eye - dvec3(world.positions[v])) > 0.0 ? 1 : -1;
+  double front = 0, back = 0;  // solid angles
+  for (std::uint32_t i = part.firstIndex; i < part.firstIndex + part.indexCount; i += 3) {
+    const std::uint32_t* v = &world.indices[i];
+    const dvec3 a(world.positions[v[0]]), b(world.positions[v[1]]), c(world.positions[v[2]]);
+    const dvec3 toEye = eye - (a + b + c) / 3.0;
+    const double square = std::max(glm::dot(toEye, toEye), 1e-300);
+    const double seen = glm::dot(glm::cross(b - a, c - a), toEye) / (square * std::sqrt(square));
+    (seen > 0 ? front : back) += std::abs(seen);
   }
-  return facing < 0;
+  return back > 2 * front;
 }
 
 }  // namespace catoptric::virtual_object

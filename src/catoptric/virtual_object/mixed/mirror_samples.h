@@ -31,7 +31,8 @@ struct MirrorSample {
 [[nodiscard]] std::vector<MirrorSample> sampleMirror(const ReflectorMesh& mesh, const SceneRays& scene,
                                                      const scene::CameraFrame& camera, std::size_t about);
 
-/// Does the eye see the back of a double-sided mirror? The side that most of its triangles turn to it.
+/// Does the eye see the back of a double-sided mirror? Yes where back faces fill more than twice the solid
+/// angle of front faces: of a closed surface both fill the same, and no front hides the back of an open one.
 [[nodiscard]] bool isSeenFromBehind(const scene::WorldGeometry& world, std::uint32_t reflector,
                                     const dvec3& eye);
 
