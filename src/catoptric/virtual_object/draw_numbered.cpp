@@ -6,6 +6,8 @@
 //   3. the rectangles of pixels in which each part is seen, shaded;
 //   4. masked and blended parts, as surfaces.
 // Only the last step needs depths. Without it the environment comes before step 3, which then tests none.
+#include <algorithm>
+
 #include "catoptric/virtual_object/virtual_object_method.h"
 
 namespace catoptric::virtual_object {
@@ -57,7 +59,6 @@ void VirtualObjectMethod::drawNumbersHere(raster::FrameContext& frame, const ras
                               .triangleParts = frame.scene.levels().triangleParts(),
                               .withDepths = withDepths};
   frame.counters.virtualTriangles += raster_.draw(p.objects, picture, numbers_);
-  shading_.uploadHits(chain.bounds, numbers_.hits, numbers_.depths);
 }
 
 bool VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, const raster::Chain& chain,
@@ -74,6 +75,7 @@ bool VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, const raster
     drawNumbersHere(frame, chain, view, p, withDepths);
   findPartRects(frame.scene.levels().triangleParts(), chain.bounds, numbers_.hits, frame.parentIds,
                 view.parent->widthPx, chain.parentWord(), rects_);
+  if (!numbersByGl_) shading_.uploadHits(chain.bounds, numbers_.hits, numbers_.depths);
   if (!withDepths && !rects_.rest.empty())
     background_.draw(frame.scene, chain, *view.parent, target, true, rects_.rest);
   // A software rasterizer that has no room for more textures draws what it has first, and waits: for little,
