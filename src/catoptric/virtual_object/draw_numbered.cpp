@@ -78,8 +78,7 @@ bool VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, const raster
   if (!numbersByGl_) shading_.uploadHits(chain.bounds, numbers_.hits, numbers_.depths);
   if (!withDepths && !rects_.rest.empty())
     background_.draw(frame.scene, chain, *view.parent, target, true, rects_.rest);
-  // A software rasterizer that has no room for more textures draws what it has first, and waits: for little,
-  // if edges come first.
+  // Edges first: they read one more texture, and llvmpipe shades what was drawn before such a draw begins.
   shading_.shadeVirtual(frame, chain, *view.parent, target, true, rects_.edges, withDepths);
   shading_.shadeVirtual(frame, chain, *view.parent, target, false, rects_.inner, withDepths);
   if (!hasSurfaces) return !withDepths;
