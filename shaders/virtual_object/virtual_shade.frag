@@ -4,6 +4,7 @@
 // per pixel are those within the 2x2 pixels that are shaded together.
 // Defines, besides those of raster/material.glsl and exact_point.glsl:
 //   MIRROR, SEEN, ENVIRONMENT  as in raster/surface.frag
+//   DEPTH         stores that of the virtual image: surfaces will be drawn over it
 //   EDGE          pixels of other mirrors, or of none, lie in between: differences to neighbours that are of this one
 
 #include "lib/environment.glsl"
@@ -88,7 +89,9 @@ void main() {
   SurfacePoint p = makeSurfacePoint(ray, corners, hit, e1, e2);
   vec4 base = readBaseColor(p);
   ShadedPoint shaded = shadePoint(p, shadingNormal(p), base.rgb);
+#ifdef DEPTH
   gl_FragDepth = texelFetch(u_hitDepth, pixel, 0).x;
+#endif
 #ifdef MIRROR
   vec2 oct = octahedralFromDirection(shaded.mirrorDirection);
   o_radiance = vec4(shaded.radiance, oct.x);

@@ -171,4 +171,8 @@ void drawScreen() {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+void flush() {
+  glFlush();
+}
+
 }  // namespace catoptric::gl

@@ -5,6 +5,9 @@
 //   2. their numbers, by GL or, where that is software, by the processor;
 //   3. the rectangles of pixels in which each part is seen, shaded;
 //   4. masked and blended parts, as surfaces.
+// Only the last step needs depths. Without it the environment comes before step 3, which then tests none.
+#include <algorithm>
+
 #include "catoptric/virtual_object/virtual_object_method.h"
 
 namespace catoptric::virtual_object {
@@ -36,7 +39,8 @@ void VirtualObjectMethod::drawNumbersByGl(raster::FrameContext& frame, const ras
 }
 
 void VirtualObjectMethod::drawNumbersHere(raster::FrameContext& frame, const raster::Chain& chain,
-                                          const raster::SurfaceView& view, const Prepared& p) {
+                                          const raster::SurfaceView& view, const Prepared& p,
+                                          bool withDepths) {
   const raster::Level& parent = *view.parent;
   mirrorPositions_.resize(std::size_t(chain.bounds.width) * std::size_t(chain.bounds.height));
   parent.surfaces.readPixels(1, chain.bounds, std::span<vec4>(mirrorPositions_));
@@ -52,27 +56,36 @@ void VirtualObjectMethod::drawNumbersHere(raster::FrameContext& frame, const ras
                               .virtualPositions = p.virtualPositions,
                               .isKept = triangles_.isKept,
                               .isWanted = p.isNumbered,
-                              .triangleParts = frame.scene.levels().triangleParts()};
+                              .triangleParts = frame.scene.levels().triangleParts(),
+                              .withDepths = withDepths};
   frame.counters.virtualTriangles += raster_.draw(p.objects, picture, numbers_);
-  shading_.uploadHits(chain.bounds, numbers_.hits, numbers_.depths);
 }
 
-void VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, const raster::Chain& chain,
+bool VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, const raster::Chain& chain,
                                        const raster::SurfaceView& view, Prepared& p, raster::Level& target) {
   markTriangles(frame, chain, view, p);
   shading_.prepare(frame.scene, *view.parent);
+  const bool hasSurfaces =
+      std::any_of(p.objects.parts.begin(), p.objects.parts.end(),
+                  [&](const raster::TessellatedPart& part) { return p.isDrawn[part.part] != 0; });
+  const bool withDepths = hasSurfaces || frame.merge != raster::Merge::Ids;
   if (numbersByGl_)
     drawNumbersByGl(frame, chain, view, p);
   else
-    drawNumbersHere(frame, chain, view, p);
+    drawNumbersHere(frame, chain, view, p, withDepths);
   findPartRects(frame.scene.levels().triangleParts(), chain.bounds, numbers_.hits, frame.parentIds,
                 view.parent->widthPx, chain.parentWord(), rects_);
-  shading_.shadeVirtual(frame, chain, *view.parent, target, false, rects_.inner);
-  shading_.shadeVirtual(frame, chain, *view.parent, target, true, rects_.edges);
-
+  if (!numbersByGl_) shading_.uploadHits(chain.bounds, numbers_.hits, numbers_.depths);
+  if (!withDepths && !rects_.rest.empty())
+    background_.draw(frame.scene, chain, *view.parent, target, true, rects_.rest);
+  // Edges first: they read one more texture, and llvmpipe shades what was drawn before such a draw begins.
+  shading_.shadeVirtual(frame, chain, *view.parent, target, true, rects_.edges, withDepths);
+  shading_.shadeVirtual(frame, chain, *view.parent, target, false, rects_.inner, withDepths);
+  if (!hasSurfaces) return !withDepths;
   raster::gatherVirtualTriangles(p.objects, p.objects.indices, p.isDrawn, triangles_);
   frame.counters.virtualTriangles += triangles_.indices.size() / 3;
   if (!triangles_.indices.empty()) p.pass.drawSelected(frame, view, p.virtualPositions, triangles_, target);
+  return false;
 }
 
 }  // namespace catoptric::virtual_object

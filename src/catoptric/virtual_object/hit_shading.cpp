@@ -124,7 +124,8 @@ void HitShading::readHits(const gl::Scissor& bounds, std::vector<uvec2>& hits) c
 void HitShading::uploadHits(const gl::Scissor& bounds, std::span<const uvec2> hits,
                             std::span<const float> depths) {
   targets_->hits.uploadRect(bounds.x, bounds.y, bounds.width, bounds.height, hits.data());
-  targets_->depth.uploadRect(bounds.x, bounds.y, bounds.width, bounds.height, depths.data());
+  if (!depths.empty())
+    targets_->depth.uploadRect(bounds.x, bounds.y, bounds.width, bounds.height, depths.data());
 }
 
 void HitShading::bindInputs(gl::Program& program, const raster::Level& parent,
@@ -196,6 +197,7 @@ gl::Program& HitShading::findProgram(const raster::SceneBuffers& scene, Pass pas
     if ((variant & kMirror) != 0) defines.emplace_back("MIRROR");
     if ((variant & kSeen) != 0) defines.emplace_back("SEEN");
     if ((variant & kEnvironment) != 0) defines.emplace_back("ENVIRONMENT");
+    if ((variant & kDepth) != 0) defines.emplace_back("DEPTH");
     if (pass == Pass::ShadeVirtualEdge) defines.emplace_back("EDGE");
     const char* file = pass == Pass::MaskedHits ? "virtual_object/exact_hit.frag"
                        : isVirtual(pass)        ? "virtual_object/virtual_shade.frag"
@@ -209,7 +211,7 @@ gl::Program& HitShading::findProgram(const raster::SceneBuffers& scene, Pass pas
 
 void HitShading::shadeVirtual(raster::FrameContext& frame, const raster::Chain& chain,
                               const raster::Level& parent, const raster::Level& target, bool isEdge,
-                              std::span<const CoverRect> rects) {
+                              std::span<const CoverRect> rects, bool withDepths) {
   const scene::WorldGeometry& world = frame.scene.geometry();
   const auto isMirror = [&](const CoverRect& r) { return world.parts[r.item].reflector != core::kNoId; };
   mirrorRects_.clear();
@@ -220,14 +222,14 @@ void HitShading::shadeVirtual(raster::FrameContext& frame, const raster::Chain& 
     if (some.empty()) return;
     framebuffer.bind();
     gl::setScissor(chain.bounds);
-    gl::setDrawState({.depthTest = true, .depthWrite = true});
+    gl::setDrawState({.depthTest = withDepths, .depthWrite = withDepths});
     drawVariants(frame, chain, parent, isEdge ? Pass::ShadeVirtualEdge : Pass::ShadeVirtual, some, output);
   };
-  const unsigned plain = target.withSeen ? kSeen : 0u;
+  const unsigned depth = withDepths ? kDepth : 0u, plain = depth | (target.withSeen ? kSeen : 0u);
   if (target.isLast)
     drawInto(target.plainTarget(), plain | kEnvironment, mirrorRects_);
   else
-    drawInto(target.surfaces, kMirror, mirrorRects_);
+    drawInto(target.surfaces, depth | kMirror, mirrorRects_);
   drawInto(target.plainTarget(), plain, otherRects_);
 }
 

@@ -62,7 +62,8 @@ class HitShading {
   void continueHits(const gl::Scissor& bounds) const;
   /// Triangle + 1 and bits of a length at each pixel of `bounds`, row by row.
   void readHits(const gl::Scissor& bounds, std::vector<uvec2>& hits) const;
-  /// Step 2 done by the processor (number_raster.h): the hits of `bounds` and their depths, row by row.
+  /// Step 2 done by the processor (number_raster.h): the hits of `bounds` and, unless there are none, their
+  /// depths, row by row.
   void uploadHits(const gl::Scissor& bounds, std::span<const uvec2> hits, std::span<const float> depths);
   /// The rays, hits and triangles, for a program in use.
   void bindInputs(gl::Program& program, const raster::Level& parent, const raster::Chain& chain) const;
@@ -73,10 +74,12 @@ class HitShading {
                  Pass pass, std::span<const CoverRect> rects, bool isLast = false) {
     drawVariants(frame, chain, parent, pass, rects, isLast ? kEnvironment : 0u);
   }
-  /// Step 3 for hits that are those of virtual triangles, with the length of the path to them, and their
-  /// depth. `isEdge`: pixels that are not of this mirror lie in between; item: part.
+  /// Step 3 for hits that are those of virtual triangles, with the length of the path to them; item: part.
+  /// `isEdge`: pixels that are not of this mirror lie in between. `withDepths`: depths of the hits are tested
+  /// and stored; else what the target has there is covered, whatever its depth, which it keeps.
   void shadeVirtual(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
-                    const raster::Level& target, bool isEdge, std::span<const CoverRect> rects);
+                    const raster::Level& target, bool isEdge, std::span<const CoverRect> rects,
+                    bool withDepths = true);
   /// All rectangles with the program in use; item: triangle.
   void drawRects(std::span<const CoverRect> rects);
 
@@ -94,8 +97,8 @@ class HitShading {
     gl::Framebuffer rays, hitTests;
   };
   /// Bits of the textures (SceneBuffers::textureBits()), of VertexAttribute and of these.
-  enum Target : unsigned { kMirror = 128, kSeen = 256, kEnvironment = 512 };
-  static constexpr unsigned kVariants = 1024;
+  enum Target : unsigned { kMirror = 128, kSeen = 256, kEnvironment = 512, kDepth = 1024 };
+  static constexpr unsigned kVariants = 2048;
   [[nodiscard]] gl::Program& findProgram(const raster::SceneBuffers& scene, Pass pass, unsigned variant);
   /// The same as bindInputs() for virtual_shade.frag, which takes its rays from the parent.
   void bindVirtualInputs(gl::Program& program, const raster::Level& parent, const raster::Chain& chain) const;

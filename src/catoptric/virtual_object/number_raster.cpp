@@ -229,7 +229,7 @@ void NumberRaster::drawBand(const NumberPicture& picture, int band, NumberImage&
       image.hits[to] =
           uvec2(rows.numbers[from],
                 rows.numbers[from] == 0 ? 0u : std::bit_cast<std::uint32_t>(rays.lengthAt(x, y) / n));
-      image.depths[to] = rays.depth + rays.depthStep * n;
+      if (picture.withDepths) image.depths[to] = rays.depth + rays.depthStep * n;
     }
 }
 
@@ -253,7 +253,7 @@ std::size_t NumberRaster::draw(const raster::TessellatedObjects& objects, const 
   const std::size_t pixels = std::size_t(picture.bounds.width) * std::size_t(picture.bounds.height);
   const std::size_t padded = pixels + std::size_t(kLanes) * std::size_t(picture.bounds.height);
   nearness_.resize(padded), limits_.resize(padded), numbers_.resize(padded);
-  image.hits.resize(pixels), image.depths.resize(pixels);
+  image.hits.resize(pixels), image.depths.resize(picture.withDepths ? pixels : 0);
   core::parallelFor(bands, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t band = begin; band < end; ++band) drawBand(picture, int(band), image);
   });

@@ -44,12 +44,13 @@ struct NumberPicture {
   std::span<const std::uint8_t> isKept;          ///< by triangle of the objects
   std::span<const std::uint8_t> isWanted;        ///< by part
   std::span<const std::uint32_t> triangleParts;  ///< by number
+  bool withDepths = true;                        ///< else NumberImage::depths are left out
 };
 
 /// Of the pixels of NumberPicture::bounds, row by row.
 struct NumberImage {
   std::vector<uvec2> hits;    ///< number + 1, 0: none; bits of the length of the path
-  std::vector<float> depths;  ///< 0 to 1
+  std::vector<float> depths;  ///< 0 to 1; empty: left out
 };
 
 class NumberRaster {

@@ -204,10 +204,8 @@ bool VirtualObjectMethod::drawObjects(raster::FrameContext& frame, const raster:
     drawOnGpu(frame, chain, view, p, target);
     return false;
   }
-  if (findDrawing(chain, frame.scene.geometry()) == Drawing::Numbered) {
-    drawNumbered(frame, chain, view, p, target);
-    return false;
-  }
+  if (findDrawing(chain, frame.scene.geometry()) == Drawing::Numbered)
+    return drawNumbered(frame, chain, view, p, target);
   const bool isMirrored = chain.drawFromWorld != dmat4(1.0);
   p.pass.draw(frame, view, p.virtualPositions, p.kinds, p.reflectionPoints,
               isMirrored ? std::span<const vec3>(p.scenePoints) : std::span<const vec3>(), target);
@@ -237,6 +235,7 @@ void VirtualObjectMethod::render(raster::FrameContext& frame, const raster::Chai
   const bool isComplete = drawObjects(frame, chain, parent, target);
   // 3
   if (!isComplete) background_.draw(frame.scene, chain, parent, target, true, rects_.rest);
+  gl::flush();  // GL in software shades this mirror while the next one is prepared
 }
 
 }  // namespace catoptric::virtual_object

@@ -175,8 +175,9 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   void drawNumbersByGl(raster::FrameContext& frame, const raster::Chain& chain,
                        const raster::SurfaceView& view, Prepared& prepared);
   void drawNumbersHere(raster::FrameContext& frame, const raster::Chain& chain,
-                       const raster::SurfaceView& view, const Prepared& prepared);
-  void drawNumbered(raster::FrameContext& frame, const raster::Chain& chain, const raster::SurfaceView& view,
+                       const raster::SurfaceView& view, const Prepared& prepared, bool withDepths);
+  /// True where the environment is there, too.
+  bool drawNumbered(raster::FrameContext& frame, const raster::Chain& chain, const raster::SurfaceView& view,
                     Prepared& prepared, raster::Level& target);
 
   /// Is the mirror drawn part by part? A scene too large for textures is drawn as if it were convex.

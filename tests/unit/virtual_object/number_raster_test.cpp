@@ -51,7 +51,7 @@ struct Cloud {
     view.clipFromDraw = glm::infinitePerspective(1.0f, float(kWidth) / float(kHeight), 0.01f);
   }
 
-  NumberImage draw() {
+  NumberImage draw(bool withDepths = true) {
     std::vector<vec3> screen;
     projectVertices(view, positions, screen);
     const NumberPicture picture{.clipFromDraw = view.clipFromDraw,
@@ -65,7 +65,8 @@ struct Cloud {
                                 .virtualPositions = positions,
                                 .isKept = isKept,
                                 .isWanted = isWanted,
-                                .triangleParts = parts};
+                                .triangleParts = parts,
+                                .withDepths = withDepths};
     NumberImage image;
     NumberRaster().draw(objects, picture, image);
     return image;
@@ -124,6 +125,14 @@ TEST(NumberRaster, NothingLiesBeforeTheMirror) {
   for (vec4& p : cloud.mirror) p.w = 1.2f;
   EXPECT_LT(countWrong(cloud, 1.2), kPixels / 100);
   EXPECT_GT(countWrong(cloud, 0.01), kPixels / 100);
+}
+
+TEST(NumberRaster, DepthsMayBeLeftOut) {
+  Cloud cloud(4000, 0.12f, 2);
+  const NumberImage with = cloud.draw(), without = cloud.draw(false);
+  EXPECT_EQ(with.depths.size(), std::size_t(kPixels));
+  EXPECT_TRUE(without.depths.empty());
+  EXPECT_EQ(with.hits, without.hits);
 }
 
 TEST(NumberRaster, HalfAPixelOffIsTold) {
