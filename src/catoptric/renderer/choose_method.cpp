@@ -107,17 +107,20 @@ double MethodChooser::findTriangles(Mirror& mirror, const scene::CameraFrame& ca
 
 /// Which parts virtual objects would show, as VirtualObjectMethod::forecastParts() does.
 ViewForecast MethodChooser::forecastParts(Mirror& mirror, const scene::CameraFrame& camera,
-                                          const virtual_object::SceneRays& rays, MirrorLoad& load) const {
+                                          const ChoiceOptions& options, const virtual_object::SceneRays& rays,
+                                          MirrorLoad& load) const {
   std::vector<const virtual_object::MirrorPart*> parts;
   for (const virtual_object::MirrorPart& part : mirror.cut.parts) parts.push_back(&part);
   const double pixelsPerTangent = 0.5 * camera.heightPx / camera.tanHalfFovY;
   const auto forecasts = virtual_object::forecastView(parts, rays, camera.eye, pixelsPerTangent);
   ViewForecast sum = addUp(forecasts);
   for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (!forecasts[k].suitsVirtualObject()) continue;
+    load.triangles = findTriangles(mirror, camera, options);
     const auto costs = virtual_object::expectCosts(forecasts[k], parts[k]->bend,
                                                    std::size_t(kVerticesPerTriangle * load.triangles),
                                                    parts[k]->mesh->ordinaryCount());
-    if (!forecasts[k].suitsVirtualObject() || costs.virtualMs >= costs.boundMs) continue;
+    if (costs.virtualMs >= costs.boundMs) continue;
     load.partsMs += costs.virtualMs;
     load.virtualShare += forecasts[k].pixels * forecasts[k].oneToOne / sum.pixels;
   }
@@ -131,8 +134,8 @@ void MethodChooser::addCandidates(Mirror& mirror, const scene::CameraFrame& came
   const virtual_object::SceneRays rays{triangles_, geometry_.triangleParts, reflector.part};
   const auto samples = virtual_object::sampleMirror(mirror.mesh, rays, camera, kSamples);
   MirrorLoad load = measureLoad(mirror.mesh, rays, geometry_, camera.eye, samples);
-  load.triangles = findTriangles(mirror, camera, options);
-  ViewForecast forecast = forecastParts(mirror, camera, rays, load);
+  if (options.withFigures || mirror.mesh.isConvex()) load.triangles = findTriangles(mirror, camera, options);
+  ViewForecast forecast = forecastParts(mirror, camera, options, rays, load);
   forecast.pixels = load.pixels, forecast.offered = load.offered, forecast.triangles = load.triangles;
   choice.forecast = forecast;
   if (samples.empty()) return;
@@ -161,7 +164,7 @@ MethodChoice MethodChooser::choose(std::uint32_t reflector, const scene::CameraF
   const double pixels = choice.forecast->pixels;
   if (choice.candidates.empty()) {
     choice.reason += "; this camera does not see it";
-  } else if (pixels < kFewPixels) {  // 2
+  } else if (!options.isLarge && pixels < kFewPixels) {  // 2
     choice.method = Method::Environment;
     choice.solver = Solver::Auto;
     choice.reason = fmt::format("it covers about {:.0f} pixels, fewer than {}, and nothing has moved", pixels,

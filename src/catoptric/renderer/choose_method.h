@@ -45,6 +45,7 @@ struct ChoiceOptions {
   int mapTexels = 512;
   const raster::LevelsOfDetail* levels = nullptr;  ///< of the scene, where they have been made
   bool withFigures = true;  ///< false: an error past the bound is only known to be past it
+  bool isLarge = false;     ///< kFewPixels or more were counted, whatever samples say
   bool operator==(const ChoiceOptions&) const = default;
 };
 
@@ -64,6 +65,7 @@ class MethodChooser {
   [[nodiscard]] double findTriangles(Mirror& mirror, const scene::CameraFrame& camera,
                                      const ChoiceOptions& options) const;
   [[nodiscard]] ViewForecast forecastParts(Mirror& mirror, const scene::CameraFrame& camera,
+                                           const ChoiceOptions& options,
                                            const virtual_object::SceneRays& rays, MirrorLoad& load) const;
   void addCandidates(Mirror& mirror, const scene::CameraFrame& camera, const ChoiceOptions& options,
                      MethodChoice& choice) const;

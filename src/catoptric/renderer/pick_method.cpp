@@ -75,8 +75,13 @@ MethodChoice RasterFrame::lastChoice(std::uint32_t reflector) const {
 const MethodChoice& RasterFrame::askForChoice(const raster::FrameContext& context, std::uint32_t reflector,
                                               const FrameOptions& options) {
   const scene::CameraFrame& camera = context.camera;
-  const ChoiceOptions asked{options.maxErrorPx,         options.bounces,      options.boxCorrected,
-                            options.environmentMapSize, scene_.levelsSoFar(), false};
+  const ChoiceOptions asked{.maxErrorPx = options.maxErrorPx,
+                            .bounces = options.bounces,
+                            .boxCorrected = options.boxCorrected,
+                            .mapTexels = options.environmentMapSize,
+                            .levels = scene_.levelsSoFar(),
+                            .withFigures = false,
+                            .isLarge = true};  // pickMethod() has seen to smaller ones
   const double pixelsPerTangent = 0.5 * camera.heightPx / camera.tanHalfFovY;
   if (!chooser_) chooser_ = std::make_unique<MethodChooser>(geometry_, exact_.findHierarchy(context));
   const auto found = chosen_.find(reflector);
