@@ -182,6 +182,7 @@ std::string describeLoading(const Model& model) {
 void drawStatus(const Model& model) {
   std::string text = model.message;
   if (model.isLoading) text = describeLoading(model);
+  if (text.empty() && model.preview) text = "ray-traced while the renderer makes ready ...";
   if (text.empty()) return;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(ImVec2(display.x * 0.5f, display.y - 10), ImGuiCond_Always, ImVec2(0.5f, 1.0f));
