@@ -42,7 +42,8 @@ std::uint8_t toSrgbByte(float linear) {
     }
     return values;
   }();
-  return table[std::size_t(std::lround(double(std::sqrt(std::clamp(linear, 0.0f, 1.0f)) * 4096.0f)))];
+  // A float and a half have an exact sum, so this is std::lround(), which is a function call.
+  return table[std::size_t(double(std::sqrt(std::clamp(linear, 0.0f, 1.0f)) * 4096.0f) + 0.5)];
 }
 
 }  // namespace
