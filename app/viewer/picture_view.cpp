@@ -26,6 +26,11 @@ void drawCaption(ImDrawList* list, ImVec2 at, const char* text) {
   list->AddText(at, kWhite, text);
 }
 
+/// Panels are at the left.
+void drawCaptionAtRight(ImDrawList* list, ImVec2 size, const char* text) {
+  drawCaption(list, ImVec2(size.x - ImGui::CalcTextSize(text).x - 14, size.y - 60), text);
+}
+
 /// The box of the picked object.
 void drawSelection(const Model& model, ImDrawList* list, ImVec2 size) {
   if (!model.view.selected || !model.geometry || !model.view.showPanels || model.view.isPlaying) return;
@@ -72,11 +77,9 @@ void drawPicture(const Model& model, const ShownPictures& pictures, const ivec2&
   picture.drawOpaque(*list, vec2(0), vec2(size.x, size.y));
   drawSelection(model, list, size);
   if (shown == Comparison::Split) drawSplit(model, pictures, list, size);
-  if (shown == Comparison::Difference)
-    drawCaption(list, ImVec2(10, size.y - 60), "difference from the truth, 8 x");
+  if (shown == Comparison::Difference) drawCaptionAtRight(list, size, "difference from the truth, 8 x");
   if (shown == Comparison::Displacement)
-    drawCaption(list, ImVec2(10, size.y - 60),
-                "displacement: dark blue 0, green 1, yellow 2, orange 8 px, red lost");
+    drawCaptionAtRight(list, size, "displacement: dark blue 0, green 1, yellow 2, orange 8 px, red lost");
   if (model.view.comparison == Comparison::Split &&
       shown == Comparison::None)  // the line can be dragged already
     list->AddLine(ImVec2(model.view.split * size.x, 0), ImVec2(model.view.split * size.x, size.y),

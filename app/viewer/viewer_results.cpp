@@ -12,7 +12,7 @@
 namespace catoptric::viewer {
 namespace {
 
-constexpr double kMessageSeconds = 5.0;
+constexpr double kMessageSeconds = 5.0, kErrorSeconds = 20.0;  // how long they are shown
 
 /// Then edits, which go by number, still mean the same.
 bool hasSameThings(const scene::Scene& a, const scene::Scene& b) {
@@ -46,7 +46,8 @@ void ViewerLoop::takeResults() {
   model_.isLoading = loader_.isBusy();
   model_.isDrawing = drawer_.isBusy();
   model_.isTracing = tracer_.isBusy();
-  if (!model_.message.empty() && !model_.isError && secondsSince(messageTime_) > kMessageSeconds)
+  if (!model_.message.empty() &&
+      secondsSince(messageTime_) > (model_.isError ? kErrorSeconds : kMessageSeconds))
     model_.message.clear();
 }
 
