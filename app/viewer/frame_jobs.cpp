@@ -89,6 +89,10 @@ FrameWorker::Work makeFrameWork() {
 TruthWorker::Work makeTruthWork() {
   return [kept = std::make_shared<KeptRenderer>()](const TruthRequest& request) {
     const FrameRequest& view = request.method.request;
+    if (!view.scene) {
+      kept->forget();
+      return TruthResult{};
+    }
     const Pass pass = kPasses[std::clamp(request.pass, 0, kTruthPasses - 1)];
     renderer::FrameOptions options = view.options;
     options.method = renderer::Method::RayTrace;

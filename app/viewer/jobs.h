@@ -69,7 +69,8 @@ struct FrameResult {
 };
 
 struct TruthRequest {
-  /// At rest: what is judged. Without a frame: the truth is shown until there is one.
+  /// At rest: what is judged. Without a frame: the truth is shown until there is one. Without a scene: the last
+  /// one is forgotten.
   FrameResult method;
   std::shared_ptr<std::atomic<bool>> cancel;  ///< made true when the view has changed; may be null
   int pass = 0;                               ///< 0 .. kTruthPasses - 1: coarse, full size, more samples

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "catoptric/core/error.h"
 #include "viewer/camera_control.h"
@@ -128,7 +129,8 @@ void ViewerLoop::takeFrame(FrameResult result) {
   }
   if (result.request.scene != model_.loaded.scene) return;  // another one has come meanwhile
   if (!model_.frame.frame) firsts_.push_back("first frame");
-  model_.preview.reset();
+  if (std::exchange(model_.preview, std::nullopt) && model_.view.comparison == Comparison::None)
+    tracer_.ask({});  // a scene takes memory once more for its rays
   hasLostContext_ = false;
   moving_.learn(result.request.scale, result.wholeMs);
   model_.history.add(result);
@@ -163,7 +165,7 @@ void ViewerLoop::takePreview(TruthResult result) {
 
 void ViewerLoop::takeTruth(TruthResult result) {
   if (result.isPreview) return takePreview(std::move(result));
-  if (result.view != view_) return;
+  if (result.scene != model_.loaded.scene || result.view != view_) return;
   pictures_.truth.set(result.picture);
   if (result.difference.isEmpty() && model_.truthIsCurrent()) {  // a later pass: figures stay
     result.difference = std::move(model_.truth->difference);
