@@ -106,6 +106,7 @@ class ViewerLoop {
   LoadRequest lastLoad_;         ///< asked for, or what is there if that has failed
   FrameRequest asked_, askedElsewhere_;
   MapsRequest askedMaps_;
+  ScenePointer withoutPreview_;                     ///< rays through it have failed
   std::shared_ptr<std::atomic<bool>> cancelTruth_;  ///< of the pass in hand
   ivec2 windowPx_{0};
   int drawsLeft_ = 3;  ///< ImGui reacts to an event a frame or two later

@@ -160,7 +160,7 @@ void ViewerLoop::askForFrame() {
 void ViewerLoop::askForPreview() {
   if (!model_.loaded.scene || windowPx_.x == 0 || hasFrameOfScene() || tracer_.isBusy()) return;
   FrameRequest request = makeFrameRequest();
-  if (request.options.method == renderer::Method::RayTrace) return;
+  if (request.options.method == renderer::Method::RayTrace || request.scene == withoutPreview_) return;
   const bool isNext =
       model_.preview && model_.preview->scene == request.scene && model_.preview->view == view_;
   const int pass = isNext ? model_.preview->pass + 1 : 0;

@@ -39,7 +39,12 @@ void ViewerLoop::takeResults() {
   attempt([&] { takeSceneOrStay(); });
   attempt([&] { takeFrameOrTryAgain(); });
   attempt([&] {
-    if (auto result = tracer_.take()) takeTruth(std::move(*result));
+    try {
+      if (auto result = tracer_.take()) takeTruth(std::move(*result));
+    } catch (...) {
+      withoutPreview_ = model_.loaded.scene;
+      throw;
+    }
   });
   attempt([&] {
     if (auto result = mapper_.take()) takeMaps(std::move(*result));
