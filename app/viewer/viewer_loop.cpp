@@ -128,7 +128,7 @@ double ViewerLoop::waitSeconds() const {
   if (model_.view.isPlaying && !model_.isDrawing) return 0.005;
   if (!isAtRest() || model_.wishes.screenshot) return 0.05;
   if (model_.isLoading) return 0.1;  // it is shown for how long
-  if (!hasFrameOfScene()) return 0.25;
+  if (!hasFrameOfScene()) return 0.5;
   return options_.watch ? 0.5 : kIdleSeconds;
 }
 
