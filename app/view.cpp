@@ -2,7 +2,6 @@
 // catoptric view [SCENE|FOLDER]: the interactive viewer.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <future>
 #include <memory>
@@ -15,6 +14,7 @@
 #include "session_file.h"
 #include "shared_options.h"
 #include "terminal.h"
+#include "viewer/dropped_files.h"
 #include "viewer/viewer.h"
 #include "zexel_options.h"
 
@@ -31,21 +31,6 @@ struct Options {
   PictureOptions frame;
   OutputOptions output;
 };
-
-/// The scenes of a folder in alphabetical order.
-std::vector<std::string> listScenes(const std::string& folder) {
-  std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::string extension = entry.path().extension().string();
-    if (entry.is_regular_file() && (extension == ".glb" || extension == ".gltf"))
-      files.push_back(entry.path().string());
-  }
-  std::sort(files.begin(), files.end());
-  if (files.empty())
-    throw core::Error("file.not_found", "there is no .gltf or .glb file in the folder '" + folder + "'", {},
-                      "'catoptric scenes --all -o DIR' writes the built-in scenes");
-  return files;
-}
 
 /// What was typed that changes the scene and is no mirror's name (the viewer switches those).
 std::vector<std::string> findSceneOptions(const std::vector<std::string>& line) {
@@ -153,7 +138,7 @@ int run(Options options, const std::vector<std::string>& line) {
   if (options.source == "-" && options.watch) throw UsageError("--watch: standard input cannot be watched");
   if (options.source.empty()) options.source = kFirstScene;
   if (std::filesystem::is_directory(options.source)) {
-    viewer.files = listScenes(options.source);
+    viewer.files = viewer::listScenes(options.source);
     options.source = viewer.files.front();
   }
   checkSource(options.source);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "viewer/dropped_files.h"
+
 namespace catoptric::viewer {
 namespace {
 
@@ -53,10 +55,6 @@ void drawChoice(Model& model, const std::string& file) {
 }
 
 }  // namespace
-
-bool isEnvironmentFile(const std::string& file) {
-  return file.ends_with(".hdr") || file.ends_with(".exr") || file.ends_with(".HDR") || file.ends_with(".EXR");
-}
 
 void drawEnvironments(Model& model) {
   ImGui::PushItemWidth(180);

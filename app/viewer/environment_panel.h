@@ -2,14 +2,9 @@
 // What surrounds the scene: the built-in sky, or a file.
 #pragma once
 
-#include <string>
-
 #include "viewer/model.h"
 
 namespace catoptric::viewer {
-
-/// By its name: .hdr or .exr.
-[[nodiscard]] bool isEnvironmentFile(const std::string& file);
 
 /// A list of the sky, of the files that were opened in this window and of those beside the present one, or
 /// beside the scene. One that is picked is loaded, the eye stays where it is.

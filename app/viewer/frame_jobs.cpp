@@ -47,6 +47,7 @@ FrameResult drawElsewhere(KeptRenderer& kept, FrameResult result) {
 }
 
 TruthResult judge(const TruthRequest& request, const renderer::Frame& truth, TruthResult result) {
+  if (result.isPreview) return result;
   const renderer::Frame& method = *request.method.frame;
   const core::ImageRgba8& picture = request.method.picture;
   if (truth.radiance.width() != picture.width() || method.seen.isEmpty() || truth.seen.isEmpty())
@@ -88,16 +89,23 @@ FrameWorker::Work makeFrameWork() {
 TruthWorker::Work makeTruthWork() {
   return [kept = std::make_shared<KeptRenderer>()](const TruthRequest& request) {
     const FrameRequest& view = request.method.request;
+    if (!view.scene) {
+      kept->forget();
+      return TruthResult{};
+    }
     const Pass pass = kPasses[std::clamp(request.pass, 0, kTruthPasses - 1)];
     renderer::FrameOptions options = view.options;
     options.method = renderer::Method::RayTrace;
     options.widthPx = std::max(1, options.widthPx / pass.divisor);
     options.heightPx = std::max(1, options.heightPx / pass.divisor);
     options.samples = pass.samples;
-    options.withSeen = pass.divisor == 1 && pass.samples == 1;
+    const bool isPreview = request.method.frame == nullptr;
+    options.withSeen = pass.divisor == 1 && pass.samples == 1 && !isPreview;
     options.cancel = request.cancel.get();
     const renderer::Frame truth = render(*kept, view, options);
     TruthResult result;
+    result.scene = view.scene;
+    result.isPreview = isPreview;
     result.view = view.view;
     result.pass = request.pass;
     result.samples = pass.samples;

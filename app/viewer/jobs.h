@@ -69,13 +69,18 @@ struct FrameResult {
 };
 
 struct TruthRequest {
-  FrameResult method;                         ///< at rest: what is judged
-  std::shared_ptr<std::atomic<bool>> cancel;  ///< made true when the view has changed
+  /// At rest: what is judged. Without a frame: the truth is shown until there is one. Without a scene: the
+  /// last one is forgotten.
+  FrameResult method;
+  std::shared_ptr<std::atomic<bool>> cancel;  ///< made true when the view has changed; may be null
   int pass = 0;                               ///< 0 .. kTruthPasses - 1: coarse, full size, more samples
 };
 inline constexpr int kTruthPasses = 5;
+inline constexpr int kPreviewPasses = 2;  ///< of which, before there is a frame: finer ones slow its coming
 
 struct TruthResult {
+  ScenePointer scene;
+  bool isPreview = false;  ///< before there was a frame
   std::uint64_t view = 0;
   int pass = 0, samples = 1;
   core::ImageRgba8 picture;

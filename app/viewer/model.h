@@ -105,7 +105,8 @@ struct Model {
   std::string loadingName;
   std::chrono::steady_clock::time_point loadStart{};
   bool isLoading = false, isDrawing = false, isTracing = false;
-  FrameResult frame;  ///< its picture is what is shown
+  FrameResult frame;                   ///< its picture is what is shown
+  std::optional<TruthResult> preview;  ///< is shown instead, before there is a frame of the scene
   std::optional<TruthResult> truth;
   std::optional<MapsResult> maps;
   std::optional<Picked> picked;

@@ -91,7 +91,7 @@ void drawComparison(Model& model) {
   const metrics::DisplacementStatistics& moved = truth.objectPixels;
   if (moved.pixels > 0)
     showText(
-        fmt::format("objects in mirrors: median {:.2f} px, 95% {:.2f} px\n{:.1f}% within 1 px, {:.1f}% lost",
+        fmt::format("objects in mirrors: median {:.2f}, 95% {:.2f} px\n{:.1f}% within 1 px, {:.1f}% lost",
                     moved.medianPx, moved.p95Px, 100 * moved.shareWithin1Px, 100 * moved.shareLost));
   showText(fmt::format("whole picture: {:.1f} dB, {:.2f}% within 4/255", truth.imageDifference.psnrDb,
                        100 * truth.imageDifference.shareWithin4));
@@ -165,7 +165,7 @@ void drawHelp(Model& model) {
       }
       ImGui::EndTable();
     }
-    showText("Drop a scene, or an .hdr or .exr as surroundings, on the window.");
+    showText("Drop a scene, a folder of them, or an .hdr or .exr\nas surroundings, on the window.");
   }
   ImGui::End();
 }
@@ -182,6 +182,7 @@ std::string describeLoading(const Model& model) {
 void drawStatus(const Model& model) {
   std::string text = model.message;
   if (model.isLoading) text = describeLoading(model);
+  if (text.empty() && model.preview) text = "ray-traced while the renderer makes ready ...";
   if (text.empty()) return;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(ImVec2(display.x * 0.5f, display.y - 10), ImGuiCond_Always, ImVec2(0.5f, 1.0f));

@@ -26,6 +26,11 @@ void drawCaption(ImDrawList* list, ImVec2 at, const char* text) {
   list->AddText(at, kWhite, text);
 }
 
+/// Panels are at the left.
+void drawCaptionAtRight(ImDrawList* list, ImVec2 size, const char* text) {
+  drawCaption(list, ImVec2(size.x - ImGui::CalcTextSize(text).x - 14, size.y - 60), text);
+}
+
 /// The box of the picked object.
 void drawSelection(const Model& model, ImDrawList* list, ImVec2 size) {
   if (!model.view.selected || !model.geometry || !model.view.showPanels || model.view.isPlaying) return;
@@ -48,7 +53,7 @@ void drawSelection(const Model& model, ImDrawList* list, ImVec2 size) {
 
 void drawSplit(const Model& model, const ShownPictures& pictures, ImDrawList* list, ImVec2 size) {
   const float line = model.view.split * size.x;
-  list->AddImage(pictures.truth.imguiId(), ImVec2(line, 0), size, ImVec2(model.view.split, 0), ImVec2(1, 1));
+  pictures.truth.drawOpaque(*list, vec2(line, 0), vec2(size.x, size.y), vec2(model.view.split, 0));
   list->AddLine(ImVec2(line, 0), ImVec2(line, size.y), kWhite, 2);
   list->AddTriangleFilled(ImVec2(line - 4, size.y / 2 - 8), ImVec2(line - 4, size.y / 2 + 8),
                           ImVec2(line - 14, size.y / 2), kWhite);
@@ -64,19 +69,17 @@ void drawSplit(const Model& model, const ShownPictures& pictures, ImDrawList* li
 void drawPicture(const Model& model, const ShownPictures& pictures, const ivec2& windowPx) {
   if (pictures.method.isEmpty()) return;
   ImDrawList* list = ImGui::GetBackgroundDrawList();
-  const ImVec2 size(float(windowPx.x), float(windowPx.y)), corner(0, 0);
+  const ImVec2 size(float(windowPx.x), float(windowPx.y));
   const Comparison shown = shownComparison(model);
   const ShownPicture& picture = shown == Comparison::Difference     ? pictures.difference
                                 : shown == Comparison::Displacement ? pictures.displacement
                                                                     : pictures.method;
-  list->AddImage(picture.imguiId(), corner, size);
+  picture.drawOpaque(*list, vec2(0), vec2(size.x, size.y));
   drawSelection(model, list, size);
   if (shown == Comparison::Split) drawSplit(model, pictures, list, size);
-  if (shown == Comparison::Difference)
-    drawCaption(list, ImVec2(10, size.y - 60), "difference from the truth, 8 x");
+  if (shown == Comparison::Difference) drawCaptionAtRight(list, size, "difference from the truth, 8 x");
   if (shown == Comparison::Displacement)
-    drawCaption(list, ImVec2(10, size.y - 60),
-                "displacement: dark blue 0, green 1, yellow 2, orange 8 px, red lost");
+    drawCaptionAtRight(list, size, "displacement: dark blue 0, green 1, yellow 2, orange 8 px, red lost");
   if (model.view.comparison == Comparison::Split &&
       shown == Comparison::None)  // the line can be dragged already
     list->AddLine(ImVec2(model.view.split * size.x, 0), ImVec2(model.view.split * size.x, size.y),

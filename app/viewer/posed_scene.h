@@ -63,6 +63,11 @@ class KeptRenderer {
     renderer_.reset();
     context_.reset();
   }
+  /// Gives the memory of the scene back.
+  void forget() {
+    renderer_.reset();
+    posed_.reset();
+  }
   /// Makes the OpenGL context before there is a scene; where there is no OpenGL the first frame says so.
   void warmUp();
   [[nodiscard]] PosedScene& posed() { return *posed_; }

@@ -12,7 +12,9 @@
 namespace catoptric::viewer {
 namespace {
 
-constexpr float kMapEdge = 256;  // a map's own size
+constexpr float kMapEdge = 256;          // a map's own size
+constexpr float kBesideMainPx = 345;     // where the main panel leaves room
+constexpr float kMapsMarginPx = 2 * 24;  // of the three maps' window and between them
 
 std::string describeShape(const scene::Reflector& reflector) {
   const bool isFreeForm = reflector.shape >= scene::ReflectorShape::Extrusion;
@@ -66,18 +68,25 @@ void drawReflectorRow(Model& model, const scene::Reflector& reflector) {
     model.view.mapsOf = index;
 }
 
+/// Three maps beside the main panel, in their own size where the window is wide enough.
+float findMapEdge() {
+  return std::clamp((ImGui::GetIO().DisplaySize.x - kBesideMainPx - kMapsMarginPx) / 3, 0.5f * kMapEdge,
+                    kMapEdge);
+}
+
 /// `place`: of the point under the mouse, share of the map from its lower left corner.
 void drawMap(const char* title, const ShownPicture& picture, const std::optional<dvec2>& place) {
+  const float edge = findMapEdge();
   ImGui::BeginGroup();
   ImGui::TextUnformatted(title);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   if (picture.isEmpty())
-    ImGui::Dummy(ImVec2(kMapEdge, kMapEdge));  // the window keeps its size
+    ImGui::Dummy(ImVec2(edge, edge));  // the window keeps its size
   else
-    ImGui::Image(picture.imguiId(), ImVec2(kMapEdge, kMapEdge), ImVec2(0, 1), ImVec2(1, 0));
+    ImGui::Image(picture.imguiId(), ImVec2(edge, edge), ImVec2(0, 1), ImVec2(1, 0));
   if (place && glm::all(glm::greaterThanEqual(*place, dvec2(0))) &&
       glm::all(glm::lessThanEqual(*place, dvec2(1)))) {
-    const ImVec2 at(corner.x + float(place->x) * kMapEdge, corner.y + float(1 - place->y) * kMapEdge);
+    const ImVec2 at(corner.x + float(place->x) * edge, corner.y + float(1 - place->y) * edge);
     ImDrawList* list = ImGui::GetWindowDrawList();
     for (const auto& [color, width] : {std::pair(IM_COL32(0, 0, 0, 255), 3.0f), {IM_COL32_WHITE, 1.0f}}) {
       list->AddLine(ImVec2(at.x - 7, at.y), ImVec2(at.x + 7, at.y), color, width);

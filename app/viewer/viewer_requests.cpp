@@ -9,12 +9,14 @@
 #include "catoptric/core/file.h"
 #include "catoptric/core/image_io.h"
 #include "viewer/camera_control.h"
-#include "viewer/environment_panel.h"
+#include "viewer/dropped_files.h"
 #include "viewer/inside_panel.h"
 #include "viewer/viewer_loop.h"
 
 namespace catoptric::viewer {
 namespace {
+
+constexpr double kFinerAfterSeconds = 0.5;  // the next pass of the truth before there is a frame
 
 /// A coarse picture bears longer edges: how many times the error bound of a picture in full, on its own
 /// pixels.
@@ -24,23 +26,31 @@ double findMovingError(double scale) {
 
 }  // namespace
 
+/// Before there is a scene they wait: a failure would end the viewer.
 void ViewerLoop::openDropped() {
-  for (const std::string& file : window_.takeDroppedFiles()) {
-    LoadRequest request = model_.loaded.request;
-    request.keepsCamera = isEnvironmentFile(file);
-    if (request.keepsCamera) {
-      request.environment = file;
-    } else {
-      request.source = file;
+  if (!model_.loaded.scene) return;
+  const std::vector<std::string> files = window_.takeDroppedFiles();
+  if (files.empty()) return;
+  try {
+    const DroppedFiles dropped = sortDroppedFiles(files);
+    LoadRequest request = lastLoad_;
+    request.keepsCamera = dropped.scenes.empty();
+    if (!dropped.environment.empty()) request.environment = dropped.environment;
+    if (!dropped.scenes.empty()) {
+      request.source = dropped.scenes.front();
       request.mirrors.clear();
       request.noReflectors = false;
+      if (dropped.scenes.size() > 1) model_.files = dropped.scenes;
     }
     load(request);
+  } catch (const std::exception& error) {
+    tellFailure(error);
   }
 }
 
 void ViewerLoop::load(LoadRequest request) {
   request.step = loadStep_;
+  lastLoad_ = request;
   model_.isLoading = true;
   model_.loadStart = Clock::now();
   model_.loadingName = std::filesystem::path(request.source).filename().string();
@@ -51,6 +61,11 @@ void ViewerLoop::tell(const std::string& message, bool isError) {
   model_.message = message;
   model_.isError = isError;
   messageTime_ = Clock::now();
+}
+
+void ViewerLoop::tellFailure(const std::exception& error) {
+  tell(error.what(), true);
+  options_.sayDetail(std::string("failed: ") + error.what());
 }
 
 void ViewerLoop::grantWishes() {
@@ -103,12 +118,7 @@ void ViewerLoop::writeScreenshot() {
   }
 }
 
-void ViewerLoop::askForFrame() {
-  if (!model_.loaded.scene || windowPx_.x == 0) return;
-  const bool isFirst = !model_.frame.frame;
-  const bool isRecording = model_.recording.has_value();
-  const bool inFull = (isAtRest() && !isFirst) || isRecording;  // the first picture is coarse, but soon there
-  const bool withSeen = inFull && !isRecording;
+FrameRequest ViewerLoop::makeFrameRequest() const {
   FrameRequest request;
   request.scene = model_.loaded.scene;
   request.state = model_.view.state;
@@ -118,6 +128,16 @@ void ViewerLoop::askForFrame() {
   request.exposure = model_.view.exposure;
   request.view = view_;
   request.changed = oldestUnasked_.value_or(lastChange_);
+  return request;
+}
+
+void ViewerLoop::askForFrame() {
+  if (!model_.loaded.scene || windowPx_.x == 0) return;
+  const bool isFirst = !model_.frame.frame;
+  const bool isRecording = model_.recording.has_value();
+  const bool inFull = (isAtRest() && !isFirst) || isRecording;  // the first picture is coarse, but soon there
+  const bool withSeen = inFull && !isRecording;
+  FrameRequest request = makeFrameRequest();
   request.scale = inFull ? 1.0 : moving_.scale();
   request.options.maxErrorPx *= inFull ? 1.0 : findMovingError(request.scale);
   request.options.withSeen = withSeen;
@@ -133,6 +153,20 @@ void ViewerLoop::askForFrame() {
   asked_ = request;
   oldestUnasked_.reset();
   drawer_.ask(std::move(request));
+}
+
+/// Rays need no shaders, which are compiled while they are traced; the eye may move meanwhile. Finer ones
+/// only where compiling takes long, since they slow it down.
+void ViewerLoop::askForPreview() {
+  if (!model_.loaded.scene || windowPx_.x == 0 || hasFrameOfScene() || tracer_.isBusy()) return;
+  FrameRequest request = makeFrameRequest();
+  if (request.options.method == renderer::Method::RayTrace || request.scene == withoutPreview_) return;
+  const bool isNext =
+      model_.preview && model_.preview->scene == request.scene && model_.preview->view == view_;
+  const int pass = isNext ? model_.preview->pass + 1 : 0;
+  if (pass >= kPreviewPasses || (isNext && secondsSince(previewTime_) < kFinerAfterSeconds)) return;
+  tracer_.ask(
+      {{.request = std::move(request), .frame = nullptr, .geometry = nullptr, .picture = {}}, nullptr, pass});
 }
 
 void ViewerLoop::askForTruth() {

@@ -241,6 +241,14 @@ void ShownPicture::setExact(const core::ImageRgba8& picture) {
   upload(picture, kNearest);
 }
 
+void ShownPicture::drawOpaque(ImDrawList& list, const vec2& upper, const vec2& lower, const vec2& uvUpper,
+                              const vec2& uvLower) const {
+  list.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
+  list.AddImage(imguiId(), ImVec2(upper.x, upper.y), ImVec2(lower.x, lower.y), ImVec2(uvUpper.x, uvUpper.y),
+                ImVec2(uvLower.x, uvLower.y));
+  list.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glEnable(GL_BLEND); }, nullptr);
+}
+
 void ShownPicture::upload(const core::ImageRgba8& picture, int filter) {
   if (picture.isEmpty()) return;
   if (id_ == 0) glGenTextures(1, &id_);

@@ -10,6 +10,8 @@
 
 #include "catoptric/core/image.h"
 
+struct ImDrawList;
+
 namespace catoptric::viewer {
 
 struct KeyPress {
@@ -80,6 +82,10 @@ class ShownPicture {
   /// Pixels stay squares: for maps of ids.
   void setExact(const core::ImageRgba8& picture);
   [[nodiscard]] bool isEmpty() const { return id_ == 0; }
+  /// Into a list of ImGui, over what is there: pictures are opaque, and blending all pixels of a window takes
+  /// where GL is software as long as reading them.
+  void drawOpaque(ImDrawList& list, const vec2& upper, const vec2& lower, const vec2& uvUpper = vec2(0),
+                  const vec2& uvLower = vec2(1)) const;
   [[nodiscard]] void* imguiId() const { return reinterpret_cast<void*>(std::uintptr_t(id_)); }
 
  private:

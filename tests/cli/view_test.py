@@ -126,7 +126,7 @@ class WithDisplay(WindowTest):
         self.assertIsNone(viewer.process.poll())
         viewer.process.stdin.close()
         self.assertEqual(viewer.end(), 0, viewer.said())
-        self.assertEqual(viewer.count("first picture"), 0)
+        self.assertEqual(viewer.count("first "), 0)
 
     def test_closed_while_it_bakes_and_traces(self):
         viewer = self.view("scene.gltf", "--size", "320x240", "--method", "morphing")
@@ -136,6 +136,19 @@ class WithDisplay(WindowTest):
         viewer = self.view("scene.gltf", "--size", "320x240")
         viewer.wait_for_window()
         viewer.after("truth: pass 1", lambda: viewer.do("key", "s"))
+        self.close(viewer)
+
+    def test_the_truth_is_shown_until_shaders_are_compiled(self):
+        os.environ["MESA_SHADER_CACHE_DISABLE"] = "true"  # as on the first day
+        self.addCleanup(os.environ.pop, "MESA_SHADER_CACHE_DISABLE", None)
+        viewer = self.view("scene.gltf", "--size", "320x240")
+        viewer.wait_for_window()
+        viewer.wait_for_line("first picture, ray-traced, after")
+        viewer.drag((300, 200), (250, 180))  # the eye moves all the same
+        viewer.wait_for_line(SETTLED)
+        said = viewer.said()
+        self.assertEqual(viewer.count("first "), 3)
+        self.assertLess(said.index("first picture, ray-traced,"), said.index("first frame after"))
         self.close(viewer)
 
     def test_no_opengl(self):

@@ -136,6 +136,28 @@ TEST(DraggedFrames, areThoseOfARendererThatKeptNothing) {
     }
 }
 
+/// The mirrors of the last frame get the new eye beside each other, all others when their turn comes.
+TEST(MovedEye, isTheSameForMirrorsTogetherAndOneByOne) {
+  reference::TracedTestScene t;
+  scene::Material paint;
+  paint.metallic = 0;
+  for (const double x : {-0.9, 0.0, 0.7})
+    t.add(reference::makeBall(48, 24), reference::makeMirror(vec3(0.95f)), "ball",
+          geometry::moveBy({x, 0.4, 0}) * geometry::scaleBy(dvec3(0.3)));
+  t.add(reference::makeBall(48, 24), paint, "thing",
+        geometry::moveBy({0.3, 0.2, 0.9}) * geometry::scaleBy(dvec3(0.2)));
+  t.add(reference::makeQuad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}), paint, "floor");
+  t.finish();
+  renderer::Renderer together(t.scene, t.world, sky()), oneByOne(t.scene, t.world, sky());
+  renderer::FrameOptions options{.method = renderer::Method::Virtual, .widthPx = 200, .heightPx = 150};
+  renderer::FrameOptions none = options;
+  none.method = renderer::Method::None;
+  for (const double timeS : {0.0, 0.1, 0.4, 1.5}) {
+    expectSame(together.render(cameraAt(timeS), options), oneByOne.render(cameraAt(timeS), options));
+    (void)oneByOne.render(cameraAt(timeS), none);  // shows no mirror's virtual object
+  }
+}
+
 TEST(MovingFrames, keepToTheTruth) {
   MovingScene m;
   scene::WorldMotion motion(m.t.scene, m.t.world, {});

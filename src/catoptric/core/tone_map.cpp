@@ -27,8 +27,9 @@ vec3 compressHighlights(vec3 colour) {
   return glm::mix(colour, vec3(newPeak), g);
 }
 
+/// Rounded as by std::lround(), which is a function call: of a float the sum is exact in double.
 std::uint8_t toByte(float value) {
-  return std::uint8_t(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
+  return std::uint8_t(int(2.0 * double(std::clamp(value, 0.0f, 1.0f) * 255.0f) + 1.0) / 2);
 }
 
 /// toByte(srgbFromLinear(x)) without its power, which is most of the time of a picture: for each byte the

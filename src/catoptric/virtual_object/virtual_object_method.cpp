@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "catoptric/core/parallel.h"
 #include "catoptric/virtual_object/make_point_finder.h"
 #include "catoptric/virtual_object/mixed/mirror_samples.h"
 
@@ -66,6 +67,21 @@ void VirtualObjectMethod::partsMoved(const scene::WorldGeometry& world,
   });
   for (auto& [key, prepared] : prepared_)
     prepared->movedParts.insert(prepared->movedParts.end(), parts.begin(), parts.end());
+}
+
+/// Filling the maps of one mirror keeps one core busy; those of several are filled beside each other.
+void VirtualObjectMethod::prepare(raster::FrameContext& frame) {
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<Prepared*> shown;
+  for (const auto& [reflector, prepared] : last_)
+    if (prepared->solver && prepared->solver->eye() != frame.camera.eye) shown.push_back(prepared);
+  core::parallelFor(shown.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      shown[i]->setEye(shown[i]->mesh, frame.scene.geometry().bounds, frame.camera.eye, solverOptions());
+  });
+  const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+  frame.counters.virtualVerticesMs += spent.count();
+  last_.clear();
 }
 
 /// For dropVirtualTriangles(): the chord whose sag is a pixel, where the mirror covers the pixels that it was

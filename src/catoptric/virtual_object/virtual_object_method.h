@@ -43,7 +43,8 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     onGpu_ = onGpu;
     numbersByGl_ = numbersByGl;
   }
-  void prepare(raster::FrameContext&) override { last_.clear(); }
+  /// Gives the mirrors that the last frame showed the new eye, all at once.
+  void prepare(raster::FrameContext& frame) override;
   void geometryChanged() override {
     last_.clear();
     prepared_.clear();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "catoptric/scene/built_in/noise.h"
 
+#include <algorithm>
+
 #include "catoptric/core/widest_vectors.h"
 
 #pragma GCC diagnostic ignored "-Wpsabi"  // all vectors are inlined
@@ -44,30 +46,34 @@ constexpr int kLanes = 4;
 using Doubles = double __attribute__((vector_size(32)));
 using Ints = std::int32_t __attribute__((vector_size(16)));
 using Words = std::uint32_t __attribute__((vector_size(16)));
+using WordPairs = std::uint32_t __attribute__((vector_size(32)));
 
 CATOPTRIC_INLINE Doubles toDoubles(const Words& words) {
   constexpr std::uint32_t kSign = 1u << 31;  // only signed numbers are converted by one instruction
   return __builtin_convertvector(Ints(words ^ kSign), Doubles) + double(kSign);
 }
 
-/// hash(), of which the parts of x and y are given.
-CATOPTRIC_INLINE Doubles hashValues(const Words& xPart, const Words& yPart) {
-  Words h = xPart ^ yPart;
+/// hash() at two lattice points in each octave, of which the parts of x and y are given.
+CATOPTRIC_INLINE void hashValues(const WordPairs& xPart, const Words& yPart, Doubles& left, Doubles& right) {
+  WordPairs h = xPart ^ __builtin_shufflevector(yPart, yPart, 0, 1, 2, 3, 4, 5, 6, 7);
   h ^= h >> 16;
   h *= 0x7FEB352Du;
   h ^= h >> 15;
   h *= 0x846CA68Bu;
-  return toDoubles(h ^ (h >> 16));
+  h ^= h >> 16;
+  left = toDoubles(__builtin_shufflevector(h, h, 0, 1, 2, 3));
+  right = toDoubles(__builtin_shufflevector(h, h, 4, 5, 6, 7));
 }
 
-/// periodicNoise() of four octaves from `first` on, to the bit.
+/// periodicNoise() of four octaves from `first` on, to the bit, each half as strong as the one before; those
+/// from `octaves` on are nothing. Added to `sum` in order.
 struct FourOctaves {
-  CATOPTRIC_INLINE static void run(const dvec2& p, const ivec2& period, const int& first,
-                                   const std::uint32_t& seed, Doubles& noise) {
+  CATOPTRIC_INLINE static void run(const dvec2& p, const ivec2& period, const int& first, const int& octaves,
+                                   const std::uint32_t& seed, double& sum) {
     const Ints scales = Ints{1, 2, 4, 8} << first;
-    const Words octaves = Words{0, 1, 2, 3} + std::uint32_t(first);
+    const Words numbers = Words{0, 1, 2, 3} + std::uint32_t(first);
     const Doubles scale = __builtin_convertvector(scales, Doubles);
-    const Words seedPart = (seed + octaves * kOctaveSeed) * 0x9E3779B9u;
+    const Words seedPart = (seed + numbers * kOctaveSeed) * 0x9E3779B9u;
     Doubles fraction[2];
     Words low[2], high[2];
     for (int axis = 0; axis < 2; ++axis) {
@@ -86,11 +92,16 @@ struct FourOctaves {
       low[axis] = Words(at) * factor;
       high[axis] = Words(following == repeat ? Ints{} : following) * factor;
     }
-    const Words left = low[0] ^ seedPart, right = high[0] ^ seedPart;
-    const Doubles a = hashValues(left, low[1]), b = hashValues(right, low[1]);
-    const Doubles c = hashValues(left, high[1]), d = hashValues(right, high[1]);
+    const WordPairs xPart =
+        __builtin_shufflevector(low[0] ^ seedPart, high[0] ^ seedPart, 0, 1, 2, 3, 4, 5, 6, 7);
+    Doubles a, b, c, d;
+    hashValues(xPart, low[1], a, b);
+    hashValues(xPart, high[1], c, d);
     const Doubles top = a + (b - a) * fraction[0], bottom = c + (d - c) * fraction[0];
-    noise = (top + (bottom - top) * fraction[1]) * kToUnit;
+    const Doubles noise = (top + (bottom - top) * fraction[1]) * kToUnit;
+    const Doubles weighted = noise * (Doubles{1, 0.5, 0.25, 0.125} * (1.0 / double(1 << first)));  // exact
+    const int count = std::min(octaves - first, kLanes);
+    for (int lane = 0; lane < count; ++lane) sum += weighted[lane];
   }
 };
 
@@ -111,17 +122,10 @@ double periodicNoise(const dvec2& p, const ivec2& period, std::uint32_t seed) {
 }
 
 double fractalNoise(const dvec2& p, const ivec2& period, int octaves, std::uint32_t seed) {
-  double sum = 0, weight = 0, strength = 1;
-  for (int first = 0; first < octaves; first += kLanes) {
-    Doubles noise;
-    core::runOnWidestVectors<FourOctaves>(p, period, first, seed, noise);
-    for (int lane = 0; lane < kLanes && first + lane < octaves; ++lane) {
-      sum += strength * noise[lane];
-      weight += strength;
-      strength *= 0.5;
-    }
-  }
-  return sum / weight;
+  double sum = 0;
+  for (int first = 0; first < octaves; first += kLanes)
+    core::runOnWidestVectors<FourOctaves>(p, period, first, octaves, seed, sum);
+  return sum / (2.0 - 2.0 / double(1 << octaves));  // by 1 + 1/2 + 1/4 + ...
 }
 
 }  // namespace catoptric::scene::built_in

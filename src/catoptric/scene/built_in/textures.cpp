@@ -42,7 +42,8 @@ std::uint8_t toSrgbByte(float linear) {
     }
     return values;
   }();
-  return table[std::size_t(std::lround(double(std::sqrt(std::clamp(linear, 0.0f, 1.0f)) * 4096.0f)))];
+  // Rounded as by std::lround(), which is a function call: of a float the sum is exact in double.
+  return table[std::size_t(2.0 * double(std::sqrt(std::clamp(linear, 0.0f, 1.0f)) * 4096.0f) + 1.0) / 2];
 }
 
 }  // namespace
