@@ -262,6 +262,7 @@ void ReflectorTessellation::gatherObjects(const scene::WorldGeometry& geometry) 
 
 std::size_t estimateTriangles(const scene::WorldGeometry& geometry, std::uint32_t reflector,
                               const TessellationOptions& options) {
+  constexpr std::size_t kEnough = 2000;  // triangles of a part that are asked; of finer ones every so many
   const scene::Reflector& mirror = geometry.reflectors[reflector];
   const ReflectorDistance distance(geometry, geometry.parts[mirror.part],
                                    options.keepsBehind || mirror.doubleSided || mirror.isRefractor());
@@ -277,14 +278,15 @@ std::size_t estimateTriangles(const scene::WorldGeometry& geometry, std::uint32_
           std::span(geometry.indices).subspan(part.firstIndex, part.indexCount);
       if (const DetailLevel* level = chooseLevel(geometry, mirror, distance, options, std::uint32_t(p)))
         corners = options.levels->corners(*level);
-      for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+      const std::size_t step = std::max<std::size_t>(1, corners.size() / 3 / kEnough);
+      for (std::size_t i = 0; i + 2 < corners.size(); i += 3 * step) {
         const vec3 &a = geometry.positions[corners[i]], &b = geometry.positions[corners[i + 1]],
                    &c = geometry.positions[corners[i + 2]];
         const dvec3 normal(glm::cross(b - a, c - a));
         if (options.isSeenDirectly && !part.isSeenFromBehind &&  // its back to all of the mirror
             glm::dot(normal, mirror.centre - dvec3(a)) < -mirror.radius * glm::length(normal))
           continue;
-        sums[p] += estimatePieces(distance, k, floor, a, b, c, 0);
+        sums[p] += estimatePieces(distance, k, floor, a, b, c, 0) * double(step);
       }
     }
   });

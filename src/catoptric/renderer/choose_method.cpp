@@ -134,7 +134,10 @@ void MethodChooser::addCandidates(Mirror& mirror, const scene::CameraFrame& came
   const virtual_object::SceneRays rays{triangles_, geometry_.triangleParts, reflector.part};
   const auto samples = virtual_object::sampleMirror(mirror.mesh, rays, camera, kSamples);
   MirrorLoad load = measureLoad(mirror.mesh, rays, geometry_, camera.eye, samples);
-  if (options.withFigures || mirror.mesh.isConvex()) load.triangles = findTriangles(mirror, camera, options);
+  // Before its triangles are counted, which takes long where a scene has many.
+  const bool mayRefine =
+      mirror.mesh.isConvex() && (options.withFigures || expectRefinedMs(load) < expectExactMs(load));
+  if (options.withFigures || mayRefine) load.triangles = findTriangles(mirror, camera, options);
   ViewForecast forecast = forecastParts(mirror, camera, options, rays, load);
   forecast.pixels = load.pixels, forecast.offered = load.offered, forecast.triangles = load.triangles;
   choice.forecast = forecast;
@@ -145,7 +148,7 @@ void MethodChooser::addCandidates(Mirror& mirror, const scene::CameraFrame& came
       samples, options.withFigures ? kLostPx : options.maxErrorPx);
   choice.candidates.push_back(
       {Method::Environment, Solver::Auto, error.worstPx(), error.isAtLeast, expectMapMs(load)});
-  if (mirror.mesh.isConvex())
+  if (mayRefine)
     choice.candidates.push_back({Method::Virtual, Solver::Refined,
                                  kRefinedShare * std::min(options.maxErrorPx, kCoarsestPx), false,
                                  expectRefinedMs(load)});
