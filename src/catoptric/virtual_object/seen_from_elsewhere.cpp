@@ -73,7 +73,7 @@ void VirtualObjectMethod::drawPartsFromElsewhere(raster::FrameContext& frame, Pr
         raster::markVirtualTriangles(p.objects, p.eye, p.virtualPositions, p.kinds, p.reflectionPoints,
                                      triangles_);
       else
-        markInterval(part.found[i], p, triangles_.isKept);
+        markIntervalTriangles(p.objects, part.found[i], triangles_.isKept);
       draw(isConvex ? p.virtualPositions : part.found[i].positions);
     }
   }

@@ -208,8 +208,6 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   /// False where the eye sees no front of the part.
   bool findPartVertices(raster::FrameContext& frame, const dvec3& drawEye, InParts::Part& part,
                         Prepared& prepared) const;
-  static void markInterval(const IntervalVertices& vertices, const Prepared& prepared,
-                           std::vector<std::uint8_t>& isKept);
   void drawInterval(raster::FrameContext& frame, const raster::SurfaceView& view, const RayImages& rays,
                     const PartView& part, std::size_t interval, const Prepared& prepared);
 

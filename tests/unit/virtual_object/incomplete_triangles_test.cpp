@@ -36,7 +36,8 @@ struct Setting {
     objects.parts = {{.part = 0, .firstIndex = 0, .indexCount = 3}};
     rays.widthPx = rays.heightPx = 10;
     for (int i = 0; i < 100; ++i) {
-      rays.origins.emplace_back(0.01f * float(i % 10), 0.01f * float(i / 10), 0, 3);
+      const int column = i % 10, row = i / 10;
+      rays.origins.emplace_back(0.01f * float(column), 0.01f * float(row), 0, 3);
       rays.directions.emplace_back(0, 0, 1, 1e-6f);
       rays.words.emplace_back(0, i % 10 == 0 ? 1 : 2);
     }

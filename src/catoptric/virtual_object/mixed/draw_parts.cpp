@@ -71,22 +71,6 @@ bool VirtualObjectMethod::findPartVertices(raster::FrameContext& frame, const dv
   return true;
 }
 
-/// Triangles of which every corner has an image in the interval, one of them within the part.
-void VirtualObjectMethod::markInterval(const IntervalVertices& vertices, const Prepared& p,
-                                       std::vector<std::uint8_t>& isKept) {
-  isKept.resize(p.objects.indices.size() / 3);
-  core::parallelFor(isKept.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      int reflected = 0, none = 0;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const VertexKind kind = vertices.kinds[p.objects.indices[3 * t + k]];
-        reflected += kind == VertexKind::Reflected, none += kind == VertexKind::None;
-      }
-      isKept[t] = none == 0 && reflected > 0;
-    }
-  });
-}
-
 void VirtualObjectMethod::drawInterval(raster::FrameContext& frame, const raster::SurfaceView& view,
                                        const RayImages& rays, const PartView& part, std::size_t interval,
                                        const Prepared& p) {
@@ -97,7 +81,7 @@ void VirtualObjectMethod::drawInterval(raster::FrameContext& frame, const raster
   if (isConvex)
     raster::markVirtualTriangles(p.objects, view.drawEye, positions, p.kinds, p.reflectionPoints, triangles_);
   else
-    markInterval(vertices, p, triangles_.isKept);
+    markIntervalTriangles(p.objects, vertices, triangles_.isKept);
   // Behind one focus images stand reversed: left is right along one direction only.
   const PictureView picture{mat4(view.clipFromDraw), view.parent->widthPx, view.parent->heightPx,
                             view.windingFlipped != (interval == 1)};

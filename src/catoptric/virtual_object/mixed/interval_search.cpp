@@ -128,4 +128,19 @@ void IntervalSearch::compute(std::span<const vec3> scenePoints, std::span<const 
   });
 }
 
+void markIntervalTriangles(const raster::TessellatedObjects& objects, const IntervalVertices& vertices,
+                           std::vector<std::uint8_t>& isKept) {
+  isKept.resize(objects.indices.size() / 3);
+  core::parallelFor(isKept.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      int reflected = 0, none = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const VertexKind kind = vertices.kinds[objects.indices[3 * t + k]];
+        reflected += kind == VertexKind::Reflected, none += kind == VertexKind::None;
+      }
+      isKept[t] = none == 0 && reflected > 0 ? 1 : 0;
+    }
+  });
+}
+
 }  // namespace catoptric::virtual_object

@@ -41,7 +41,9 @@ struct PartForecast {
   [[nodiscard]] double oneToOne() const { return shares[0] + shares[1] + shares[2]; }
   /// Would virtual objects be right almost everywhere? Where the mirror itself is seen they are not, nor
   /// where searches lead elsewhere.
-  [[nodiscard]] bool suitsVirtualObjects() const { return notFound <= 0.03 && self <= 0.01; }
+  [[nodiscard]] bool suitsVirtualObjects() const {
+    return nearFocus <= 0.05 && notFound <= 0.03 && self <= 0.01;
+  }
   /// Is the interval worth a virtual object of its own? What is left out may be hidden by what is not.
   [[nodiscard]] bool shows(std::size_t interval) const {
     return suitsVirtualObjects() && shares[interval] >= 0.002;
