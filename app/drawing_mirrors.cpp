@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // What virtual objects work with (1998, 1999).
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "catoptric/core/error.h"
 #include "catoptric/raster/tessellation.h"
 #include "catoptric/sketch/mirror_sketch.h"
 #include "catoptric/sketch/section.h"
+#include "catoptric/virtual_object/mixed/interval_search.h"
+#include "catoptric/virtual_object/mixed/mirror_parts.h"
 #include "drawing.h"
 
 namespace catoptric::app {
@@ -150,6 +153,46 @@ core::ImageRgba8 drawCell(Drawing& drawing) {
   return drawFromAside(drawing, *cell, maps.mesh.centre());
 }
 
+namespace {
+
+/// Of a mirror that is not convex: a virtual object for each part and each interval between foci.
+sketch::Sketch sketchIntervals(Drawing& drawing, const ReflectorMesh& mesh,
+                               const raster::TessellatedObjects& objects) {
+  using namespace virtual_object;
+  sketch::Sketch sketch;
+  std::array<std::size_t, kIntervals> counts{};
+  const std::vector<std::uint8_t> isWanted(drawing.world().parts.size(), 1);
+  for (const MirrorPart& part : cutIntoParts(mesh).parts) {
+    const IntervalSearch search(*part.mesh, drawing.camera.eye);
+    if (!search.canReflect()) continue;
+    std::array<IntervalVertices, kIntervals> found;
+    search.compute(objects.positions, {}, {true, true, true}, found);
+    for (std::size_t k = 0; k < kIntervals; ++k) {
+      raster::VirtualTriangles triangles;
+      markIntervalTriangles(objects, found[k], triangles.isKept);
+      raster::gatherVirtualTriangles(objects, objects.indices, isWanted, triangles);
+      counts[k] += triangles.indices.size() / 3;
+      sketch.add(sketch::sketchVirtualTriangles(found[k].positions, triangles, true));
+    }
+  }
+  drawing.facts["virtual_triangles"] = counts[0] + counts[1] + counts[2];
+  drawing.facts["by_interval"] = counts;
+  return sketch;
+}
+
+sketch::Sketch sketchVirtualObject(Drawing& drawing, const VirtualObjectSolver& solver,
+                                   const raster::TessellatedObjects& objects) {
+  std::vector<vec3> drawn(objects.positions.size()), points(drawn.size());
+  std::vector<raster::VertexKind> kinds(drawn.size());
+  solver.compute(virtual_object::Solver::Refined, objects.positions, drawn, kinds, points);
+  raster::VirtualTriangles triangles;
+  raster::selectVirtualTriangles(objects, drawing.camera.eye, drawn, kinds, points, triangles);
+  drawing.facts["virtual_triangles"] = triangles.indices.size() / 3;
+  return sketch::sketchVirtualTriangles(drawn, triangles, true);
+}
+
+}  // namespace
+
 core::ImageRgba8 drawVirtualObject(Drawing& drawing) {
   const std::uint32_t reflector = findReflector(drawing, false);
   const MirrorMaps maps(drawing, reflector);
@@ -157,13 +200,8 @@ core::ImageRgba8 drawVirtualObject(Drawing& drawing) {
   const raster::TessellatedObjects objects = raster::tessellateForReflector(
       drawing.world(), reflector,
       {.maxErrorPx = drawing.frame.maxErrorPx, .reflectorDiameterPx = 175, .parts = parts});
-  std::vector<vec3> drawn(objects.positions.size()), points(drawn.size());
-  std::vector<raster::VertexKind> kinds(drawn.size());
-  maps.solver.compute(virtual_object::Solver::Refined, objects.positions, drawn, kinds, points);
-  raster::VirtualTriangles triangles;
-  raster::selectVirtualTriangles(objects, drawing.camera.eye, drawn, kinds, points, triangles);
-  drawing.facts["virtual_triangles"] = triangles.indices.size() / 3;
-  sketch::Sketch sketch = sketch::sketchVirtualTriangles(drawn, triangles, true);
+  sketch::Sketch sketch = maps.mesh.isConvex() ? sketchVirtualObject(drawing, maps.solver, objects)
+                                               : sketchIntervals(drawing, maps.mesh, objects);
   sketch.add(
       sketch::sketchRays(maps.mesh, drawing.camera.eye, drawing.options.count, 2.0 * maps.mesh.bodyRadius()));
   for (const dvec3& point : drawing.options.points)

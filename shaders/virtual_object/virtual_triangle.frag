@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which triangle of the scene is seen at a mirror pixel, and how far away: the level's shading comes later, once a pixel,
 // where the pixel is one of the mirror's.
-// Defines: PART = only where a certain part of the mirror is seen.
 
 flat in uint v_triangle;
 in vec3 v_drawPosition;
 
 uniform vec3 u_drawEye;
 uniform sampler2D u_parentPosition;
-#ifdef PART
-uniform usampler2D u_parts;
-uniform uint u_part;
-#endif
 
 layout(location = 0) out uvec2 o_hit;  // triangle + 1; bits of the length of the path to it
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-#ifdef PART
-  if (texelFetch(u_parts, pixel, 0).x != u_part) discard;
-#endif
   float path = length(v_drawPosition - u_drawEye);
   // The second z-buffer of 1998, section 3: nothing lies before the mirror that shows it.
   if (path < texelFetch(u_parentPosition, pixel, 0).w * 0.99999f) discard;

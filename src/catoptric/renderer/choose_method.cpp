@@ -38,7 +38,7 @@ ViewForecast addUp(std::span<const virtual_object::PartForecast> parts) {
   sum.parts = parts.size();
   for (const virtual_object::PartForecast& part : parts) {
     sum.pixels += part.pixels;
-    sum.oneToOne += part.pixels * part.oneToOne;
+    sum.oneToOne += part.pixels * part.oneToOne();
     sum.nearFocus += part.pixels * part.nearFocus;
     sum.self += part.pixels * part.self;
   }
@@ -114,15 +114,16 @@ ViewForecast MethodChooser::forecastParts(Mirror& mirror, const scene::CameraFra
   const double pixelsPerTangent = 0.5 * camera.heightPx / camera.tanHalfFovY;
   const auto forecasts = virtual_object::forecastView(parts, rays, camera.eye, pixelsPerTangent);
   ViewForecast sum = addUp(forecasts);
+  const bool anySuits =
+      std::any_of(forecasts.begin(), forecasts.end(),
+                  [](const virtual_object::PartForecast& f) { return f.suitsVirtualObjects(); });
+  if (anySuits) load.triangles = findTriangles(mirror, camera, options);
+  const auto vertices = std::size_t(kVerticesPerTriangle * load.triangles);
+  const auto isChosen = virtual_object::chooseParts(parts, forecasts, vertices, false);
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    if (!forecasts[k].suitsVirtualObject()) continue;
-    load.triangles = findTriangles(mirror, camera, options);
-    const auto costs = virtual_object::expectCosts(forecasts[k], parts[k]->bend,
-                                                   std::size_t(kVerticesPerTriangle * load.triangles),
-                                                   parts[k]->mesh->ordinaryCount());
-    if (costs.virtualMs >= costs.boundMs) continue;
-    load.partsMs += costs.virtualMs;
-    load.virtualShare += forecasts[k].pixels * forecasts[k].oneToOne / sum.pixels;
+    if (isChosen[k] == 0) continue;
+    load.partsMs += virtual_object::expectCosts(forecasts[k], parts[k]->bend, vertices).virtualMs;
+    load.virtualShare += forecasts[k].pixels * forecasts[k].oneToOne() / sum.pixels;
   }
   return sum;
 }

@@ -15,7 +15,7 @@ constexpr int kMostSteps = 40;
 constexpr double kLongestStep = 0.25;  // of the mirror's radius
 // Step 2: of eight neighbours so many may be better than a seed at which a search starts; more where it is
 // grazed, for there reflections lie in narrow strips.
-constexpr int kBetterNeighbours = 1, kBetterWhereGrazed = 3;
+constexpr int kBetterNeighbours = 2, kBetterWhereGrazed = 3;
 constexpr double kGrazing = 0.3, kBehind = 0.1;  // sines
 constexpr double kSine = 1e-10;                  // between half vector and normal: a reflection
 constexpr double kSame = 1e-6;                   // of the mirror's radius: reflections nearer are one

@@ -6,7 +6,7 @@
 //   1. Once: seeds on the surface, spread over the mirror by place and by normal, each with the nearest ones.
 //   2. A pair E, Q: at every seed the part of the path's gradient across the normal, times
 //      |EJ||QJ|/(|EJ|+|QJ|) (reflection_point.h says why); searches start at seeds where it is smaller than
-//      at all their neighbours but one.
+//      at all their neighbours but two.
 //   3. Newton in the tangent plane, with the Hessian of the path less that of f times the multiplier
 //      (G.n)/|grad f|, back onto the surface after each step, shortened where it does not help.
 //   4. What obeys the law, with E and Q on the bright side, and was not found before, is a reflection.
@@ -18,8 +18,8 @@
 // Any geometry/implicit_surface.h will do: quadrics, tori and aspheric mirrors are recognised and fitted.
 //
 // Departures: Hanrahan & Mitchell 1992 bracket roots with interval arithmetic; here seeds stand for
-// intervals, and steps 5 and 6 for their subdivision. Known failures: double roots (Q on a caustic); about
-// one in 1,000 where E and Q all but touch the inside of a tube. Cost: 20 to 80 us. Sources: Mitchell &
+// intervals, and steps 5 and 6 for their subdivision. Known failures: double roots (Q on a caustic); one in
+// 3,000 where E or Q is near the inside of a tube. Cost: 30 to 150 us. Sources: Mitchell &
 // Hanrahan 1992; Chen & Arvo 2000 for the Hessian.
 #pragma once
 

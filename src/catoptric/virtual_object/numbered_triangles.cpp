@@ -94,9 +94,7 @@ std::size_t dropUnseenTriangles(const raster::TessellatedObjects& objects, const
   const vec2 lower(bounds.x, bounds.y), upper = lower + vec2(bounds.width, bounds.height);
   std::atomic<std::size_t> dropped{0};
   for (const raster::TessellatedPart& part : objects.parts) {
-    const float facing = world.parts[part.part].isSeenFromBehind || view.isEitherSide ? 0.0f
-                         : view.windingFlipped                                        ? -1.0f
-                                                                                      : 1.0f;
+    const float facing = world.parts[part.part].isSeenFromBehind ? 0.0f : view.windingFlipped ? -1.0f : 1.0f;
     core::parallelFor(part.indexCount / 3, kTrianglesPerTask, [&](std::size_t begin, std::size_t end) {
       std::size_t count = 0;
       for (std::size_t t = part.firstIndex / 3 + begin; t < part.firstIndex / 3 + end; ++t) {
@@ -127,7 +125,7 @@ NumberedTriangles::NumberedTriangles(const raster::TessellatedObjects& objects)
 void NumberedTriangles::draw(const raster::FrameContext& frame, const raster::SurfaceView& view,
                              gl::Program& program, std::span<const vec3> virtualPositions,
                              std::span<const std::uint32_t> triangles,
-                             std::span<const raster::DrawRange> ranges, bool isEitherSide) {
+                             std::span<const raster::DrawRange> ranges) {
   core::parallelFor(mesh_.vertices.size(), kVerticesPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) drawPositions_[i] = virtualPositions[mesh_.vertices[i]];
   });
@@ -141,7 +139,7 @@ void NumberedTriangles::draw(const raster::FrameContext& frame, const raster::Su
   view.parent->bindAsParent(program);
   const gl::Cull hidden = view.windingFlipped ? gl::Cull::Front : gl::Cull::Back;
   const auto isSeenFromBehind = [&](const raster::DrawRange& range) {
-    return isEitherSide || frame.scene.geometry().parts[range.part].isSeenFromBehind;
+    return frame.scene.geometry().parts[range.part].isSeenFromBehind;
   };
   for (std::size_t first = 0, last = 0; first < ranges.size(); first = last) {
     const bool isTwoSided = isSeenFromBehind(ranges[first]);

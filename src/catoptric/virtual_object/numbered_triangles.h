@@ -42,7 +42,6 @@ struct PictureView {
   mat4 clipFromDraw{1.0f};
   int widthPx = 0, heightPx = 0;
   bool windingFlipped = false;  ///< fronts turn clockwise
-  bool isEitherSide = false;    ///< winding says nothing of fronts
 };
 
 /// Virtual vertices: pixels and 1 / w; NaN where they do not lie before the eye.
@@ -62,10 +61,10 @@ class NumberedTriangles {
   [[nodiscard]] std::span<const std::uint32_t> indices() const { return mesh_.indices; }
 
   /// Step 2, into the bound target of hits, with the program of virtual_triangle.frag: the runs of `ranges`,
-  /// which lie in `triangles`. `isEitherSide`: no matter how they turn.
+  /// which lie in `triangles`.
   void draw(const raster::FrameContext& frame, const raster::SurfaceView& view, gl::Program& program,
             std::span<const vec3> virtualPositions, std::span<const std::uint32_t> triangles,
-            std::span<const raster::DrawRange> ranges, bool isEitherSide = false);
+            std::span<const raster::DrawRange> ranges);
 
  private:
   NumberedMesh mesh_;

@@ -2,10 +2,10 @@
 // The virtual object of a mirror as an eye elsewhere sees it (1998, fig. 10 and 11): what the last frame has
 // computed, drawn again; nothing is computed anew but the reflection point of one scene point.
 //
-// Steps: 1 the virtual object, shaded as in the mirror, without the shell of the room, which would hide it; 2
-// edges of the tessellation, as it stands and as it is drawn; 3 the mirror's triangles and the rays that
-// leave its corners: the edges of the reflected cells; 4 for one point its way to the eye, where it is drawn,
-// and the cell that it lies in.
+// Steps: 1 the virtual object (of a mirror that is not convex, those of its parts and intervals), shaded as
+// in the mirror, without the shell of the room, which would hide it; 2 edges of the tessellation, as it
+// stands and as it is drawn; 3 the mirror's triangles and the rays that leave its corners: the edges of the
+// reflected cells; 4 for one point its way to the eye, where it is drawn, and the cell that it lies in.
 #include <algorithm>
 #include <array>
 
@@ -36,19 +36,47 @@ void VirtualObjectMethod::drawFromElsewhere(raster::FrameContext& frame, std::ui
   Prepared& p = *last->second;
   // 1
   const scene::WorldGeometry& world = frame.scene.geometry();
-  completeOnCpu(world, reflector, p);
-  raster::markVirtualTriangles(p.objects, p.solver->eye(), p.virtualPositions, p.kinds, p.reflectionPoints,
-                               triangles_);
   std::vector<std::uint8_t> isWanted(world.parts.size());
   for (std::size_t i = 0; i < isWanted.size(); ++i) isWanted[i] = world.parts[i].shell ? 0 : 1;
-  raster::gatherVirtualTriangles(p.objects, p.objects.indices, isWanted, triangles_);
   raster::Chain chain;
   chain.last = reflector;
   chain.bounds = {0, 0, target.widthPx, target.heightPx};
   raster::SurfaceView view = elsewhere;
   view.windingFlipped = true;  // images in a mirror are turned round, from wherever they are looked at
   view.chain = &chain;
-  p.pass.drawSelected(frame, view, p.virtualPositions, triangles_, target);
+  const auto draw = [&](std::span<const vec3> positions) {
+    raster::gatherVirtualTriangles(p.objects, p.objects.indices, isWanted, triangles_);
+    p.pass.drawSelected(frame, view, positions, triangles_, target);
+  };
+  if (p.inParts && std::any_of(p.inParts->parts.begin(), p.inParts->parts.end(),
+                               [](const InParts::Part& part) { return part.isAnyWorthIt(); })) {
+    drawPartsFromElsewhere(frame, p, view, draw);
+    return;
+  }
+  completeOnCpu(world, reflector, p);
+  raster::markVirtualTriangles(p.objects, p.solver->eye(), p.virtualPositions, p.kinds, p.reflectionPoints,
+                               triangles_);
+  draw(p.virtualPositions);
+}
+
+/// Step 1 in a mirror drawn in parts: a virtual object for each interval. Past one focus it stands reversed.
+void VirtualObjectMethod::drawPartsFromElsewhere(raster::FrameContext& frame, Prepared& p,
+                                                 raster::SurfaceView& view,
+                                                 const std::function<void(std::span<const vec3>)>& draw) {
+  for (InParts::Part& part : p.inParts->parts) {
+    if (!part.isAnyWorthIt() || !findPartVertices(frame, p.eye, part, p)) continue;
+    for (std::size_t i = 0; i < kIntervals; ++i) {
+      if (!part.isWorthIt[i]) continue;
+      view.windingFlipped = i != 1;
+      const bool isConvex = part.shape.bend == Bend::Convex;
+      if (isConvex)
+        raster::markVirtualTriangles(p.objects, p.eye, p.virtualPositions, p.kinds, p.reflectionPoints,
+                                     triangles_);
+      else
+        markIntervalTriangles(p.objects, part.found[i], triangles_.isKept);
+      draw(isConvex ? p.virtualPositions : part.found[i].positions);
+    }
+  }
 }
 
 void VirtualObjectMethod::collectMarks(const scene::WorldGeometry& world, std::uint32_t reflector,

@@ -4,6 +4,7 @@
 // 3). Virtual vertices are found by the processor, or by a vertex shader (draw_on_gpu.cpp).
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <tuple>
@@ -15,9 +16,10 @@
 #include "catoptric/virtual_object/exact/exact_method.h"
 #include "catoptric/virtual_object/layered_finder.h"
 #include "catoptric/virtual_object/mirror_textures.h"
+#include "catoptric/virtual_object/mixed/incomplete_triangles.h"
+#include "catoptric/virtual_object/mixed/interval_search.h"
 #include "catoptric/virtual_object/mixed/part_image.h"
 #include "catoptric/virtual_object/mixed/part_pixels.h"
-#include "catoptric/virtual_object/mixed/view_forecast.h"
 #include "catoptric/virtual_object/number_raster.h"
 #include "catoptric/virtual_object/numbered_triangles.h"
 #include "catoptric/virtual_object/part_rects.h"
@@ -91,7 +93,10 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     explicit InParts(const ReflectorMesh& mesh);
     struct Part : Search {
       MirrorPart shape;
-      bool isWorthIt = false;  ///< a virtual object, for the last eye
+      std::unique_ptr<IntervalSearch> intervals;  ///< where it is not convex; made when first needed
+      std::array<bool, kIntervals> isWorthIt{};   ///< a virtual object, for the last eye
+      std::array<IntervalVertices, kIntervals> found;
+      [[nodiscard]] bool isAnyWorthIt() const { return isWorthIt[0] || isWorthIt[1] || isWorthIt[2]; }
     };
     std::vector<Part> parts;
     PartBuffers buffers;
@@ -106,6 +111,12 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
 
    private:
     InParts(const ReflectorMesh& mesh, CutMirror cut);
+  };
+  /// Where a part is seen.
+  struct PartView {
+    const InParts::Part& part;
+    std::uint32_t number;
+    gl::Scissor bounds;
   };
   /// Everything kept for one curved reflector from frame to frame.
   struct Prepared : Search {
@@ -132,6 +143,8 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     dvec3 eye{0};                          ///< of the last frame
     bool isFoundOnCpu = false;             ///< the arrays above are those of the solver's eye
   };
+  void drawPartsFromElsewhere(raster::FrameContext& frame, Prepared& prepared, raster::SurfaceView& view,
+                              const std::function<void(std::span<const vec3>)>& draw);
   static void addTessellation(const scene::WorldGeometry& world, const Prepared& p, raster::Marks& marks);
   static void addCells(const Prepared& p, double rayLength, raster::Marks& marks);
   static void addPath(const Prepared& p, const dvec3& point, raster::Marks& marks);
@@ -193,21 +206,22 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   bool forecastParts(const raster::FrameContext& frame, const raster::Chain& chain, const dvec3& drawEye,
                      Prepared& prepared);
   void drawPartNumbers(raster::FrameContext& frame, const raster::Chain& chain,
-                       const raster::SurfaceView& view, Prepared& prepared);
-  void findPartVertices(raster::FrameContext& frame, const dvec3& drawEye, InParts::Part& part,
+                       const raster::SurfaceView& view, const RayImages& rays, Prepared& prepared);
+  /// False where the eye sees no front of the part.
+  bool findPartVertices(raster::FrameContext& frame, const dvec3& drawEye, InParts::Part& part,
                         Prepared& prepared) const;
-  void markPartTriangles(const scene::WorldGeometry& world, const Prepared& prepared);
-  void drawPart(raster::FrameContext& frame, const raster::SurfaceView& view, const gl::Scissor& bounds,
-                std::uint32_t number, InParts::Part& part, Prepared& prepared);
+  void drawInterval(raster::FrameContext& frame, const raster::SurfaceView& view, const RayImages& rays,
+                    const PartView& part, std::size_t interval, const Prepared& prepared);
 
   Solver solver_;
   bool onGpu_ = false, numbersByGl_ = true;
   std::map<Solver, std::unique_ptr<raster::SurfacePass>> gpuSurfaces_;  ///< by solver, made when first needed
   HitShading& shading_;
   ExactMethod& exact_;
-  std::unique_ptr<PartImage> partImage_;            ///< made when first needed
-  std::unique_ptr<gl::Program> partNumberProgram_;  ///< likewise
+  std::unique_ptr<PartImage> partImage_;  ///< made when first needed
   std::vector<uvec2> partNumbers_;
+  MirrorPixels partPixels_;
+  std::array<std::vector<vec3>, kIntervals> intervalScreens_;
   std::vector<std::uint8_t> isDone_;
   gl::Program numberProgram_{"virtual_object/virtual_triangle.vert", "virtual_object/virtual_triangle.frag"};
   raster::VirtualTriangles triangles_;

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <set>
 
@@ -114,12 +115,34 @@ PartForecast forecastWall(double distance) {
 }
 
 TEST(ViewForecast, tellsWhereThingsLieAtAFocus) {
-  EXPECT_GT(forecastWall(0.4).oneToOne, 0.99);
-  EXPECT_GT(forecastWall(4).oneToOne, 0.99);
+  EXPECT_GT(forecastWall(0.4).shares[0], 0.99);
+  EXPECT_GT(forecastWall(4).shares[2], 0.99);
+  EXPECT_TRUE(forecastWall(4).shows(2) && !forecastWall(4).shows(0));
+  EXPECT_EQ(forecastWall(4).notFound, 0);
   EXPECT_GT(forecastWall(1).nearFocus, 0.99);
-  EXPECT_FALSE(forecastWall(1).suitsVirtualObject());
+  EXPECT_EQ(forecastWall(1).oneToOne(), 0);
   // A square of 0.6 at 3, 500 pixels for a tangent of 1.
   EXPECT_NEAR(forecastWall(4).pixels, 100.0 * 100.0, 500);
+}
+
+TEST(ViewForecast, choosesWhatIsFasterTogether) {
+  const ReflectorMesh mesh = makeDish(-0.5, -0.5, 0.3);
+  const CutMirror cut = cutIntoParts(mesh);
+  const std::vector<const MirrorPart*> parts{&cut.parts.at(0), &cut.parts.at(0)};
+  const auto forecast = [](double pixels) { return PartForecast{.pixels = pixels, .shares = {1, 0, 0}}; };
+  const auto choose = [&](double first, double second, bool all) {
+    return chooseParts(parts, std::vector{forecast(first), forecast(second)}, 10000, all);
+  };
+  using Chosen = std::vector<std::uint8_t>;
+  EXPECT_EQ(choose(1e6, 10, false), (Chosen{1, 0}));  // the second is too small
+  EXPECT_EQ(choose(1e6, 10, true), (Chosen{1, 1}));
+  const double little = (expectCosts(forecast(0), Bend::Convex, 10000).virtualMs + 4) /
+                        expectCosts(forecast(1), Bend::Convex, 10000).boundMs;
+  EXPECT_EQ(choose(little, little, false), (Chosen{1, 1}));
+  EXPECT_EQ(choose(little, 0, false), (Chosen{0, 0}));  // faster, but not by what parts cost
+  PartForecast hidden = forecast(1e6);
+  hidden.notFound = 0.2;
+  EXPECT_EQ(chooseParts(parts, std::vector{hidden, forecast(1e6)}, 10000, true), (Chosen{0, 1}));
 }
 
 TEST(PartPixels, holdEachRayAgainstItsTriangle) {
@@ -136,25 +159,29 @@ TEST(PartPixels, holdEachRayAgainstItsTriangle) {
     rays.directions.emplace_back(0, 0, 1, 0);
     rays.words.emplace_back(0, i % 10 == 0 ? 1 : 2);
   }
-  std::vector<uvec2> hits(100, uvec2(1, 0));
-  std::vector<std::uint8_t> isDone(100, 7);
-  hits[2 * 10 + 2].x = 0;  // nothing drawn
-  hits[1 * 10 + 1].x = 2;  // a triangle far beside the ray
-  const std::size_t done = checkPixels(world, rays, {0, 0, 10, 10}, 2, hits, isDone);
-  std::size_t count = 0;
+  const auto length = [](float path) { return std::bit_cast<std::uint32_t>(path); };
+  NumberImage image{std::vector<uvec2>(100, uvec2(1, length(2))), std::vector<float>(100, 0.5f)};
+  image.hits[2 * 10 + 2].x = 0;  // nothing drawn
+  image.hits[1 * 10 + 1].x = 2;  // a triangle far beside the ray
+  std::vector<uvec2> parts(100, uvec2(5, 0));
+  parts[3 * 10 + 1].x = 4;  // another part
+  MirrorPixels pixels{{0, 0, 10, 10}, 2, parts, {std::vector<uvec2>(100), std::vector<float>(100)}};
+  pixels.confirmed.hits[0 * 10 + 4] = {9, length(1)};  // nearer
+  pixels.confirmed.hits[0 * 10 + 3] = {9, length(3)};  // farther
+  confirmPixels(world, rays, {{0, 0, 10, 10}, image, 5}, pixels);
   for (int i = 0; i < 100; ++i) {
     const int x = i % 10, y = i / 10;
-    const bool isMirror = x > 0, isDrawn = !(x == 2 && y == 2), isOther = x == 1 && y == 1;
+    const bool isMirror = x > 0, isDrawn = !(x == 2 && y == 2), isOther = x == 1 && (y == 1 || y == 3),
+               isBehind = x == 4 && y == 0;
+    const std::uint32_t number = pixels.confirmed.hits[std::size_t(i)].x;
     if (x + y <= 5) {
-      EXPECT_EQ(isDone[std::size_t(i)] != 0, isMirror && isDrawn && !isOther) << x << ' ' << y;
+      EXPECT_EQ(number == 1, isMirror && isDrawn && !isOther && !isBehind) << x << ' ' << y;
     }
     if (x + y >= 8) {
-      EXPECT_EQ(isDone[std::size_t(i)], 0) << x << ' ' << y;
+      EXPECT_EQ(number, 0u) << x << ' ' << y;
     }
-    count += isDone[std::size_t(i)];
   }
-  EXPECT_EQ(count, done);
-  EXPECT_EQ(hits[1 * 10 + 1].x, 0u);
+  EXPECT_EQ(pixels.confirmed.hits[4].x, 9u);
 }
 
 }  // namespace

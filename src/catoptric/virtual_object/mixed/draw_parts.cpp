@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refined in mirrors that are not convex: a virtual object for each part that bends one way, and solver
-// `exact` for what they leave (mixed/README.md).
+// Refined in mirrors that are not convex: a virtual object for each interval between foci of each part that
+// bends one way, and solver `exact` for what they leave (mixed/README.md).
 //
 // Steps:
 //   1. Which part of the mirror is seen at each pixel (part_image.h).
-//   2. For each part that is worth it: virtual vertices by a search within that part, virtual triangles drawn
-//      as numbers at that part's pixels.
-//   3. Each pixel's ray is held against the triangle whose number is there (part_pixels.h); those that agree
-//      are shaded.
+//   2. For each part that is worth it: virtual vertices by searches within that part, one for each interval;
+//      virtual triangles drawn as numbers (number_raster.h).
+//   3. Each pixel's ray is held against the triangles whose numbers are there (part_pixels.h); of those that
+//      agree the nearest is shaded.
 //   4. The others, and pixels of no part, are drawn by solver `exact`, as if the rest of the mirror were not
 //      there.
 #include <algorithm>
 #include <chrono>
 
 #include "catoptric/core/parallel.h"
+#include "catoptric/virtual_object/mixed/view_forecast.h"
 #include "catoptric/virtual_object/virtual_object_method.h"
 
 namespace catoptric::virtual_object {
 namespace {
-
-constexpr int kPartsUnit = raster::kUnitFirstFree + 4;  // behind the images of the level before
 
 gl::Scissor boundsOf(const gl::Scissor& bounds, std::span<const uvec2> numbers, std::uint32_t number,
                      std::size_t& pixels) {
@@ -35,13 +34,6 @@ gl::Scissor boundsOf(const gl::Scissor& bounds, std::span<const uvec2> numbers, 
   return {bounds.x + x0, bounds.y + y0, x1 - x0 + 1, y1 - y0 + 1};
 }
 
-/// Does the triangle turn a face that is seen to where its corners are reflected?
-bool facesMirror(const vec3 q[3], const vec3 j[3]) {
-  const vec3 normal = glm::cross(q[1] - q[0], q[2] - q[0]);
-  return glm::dot(normal, j[0] - q[0]) > 0 || glm::dot(normal, j[1] - q[1]) > 0 ||
-         glm::dot(normal, j[2] - q[2]) > 0;
-}
-
 }  // namespace
 
 bool VirtualObjectMethod::hasCutOuts(const raster::SceneBuffers& scene) {
@@ -50,66 +42,75 @@ bool VirtualObjectMethod::hasCutOuts(const raster::SceneBuffers& scene) {
   return false;
 }
 
-void VirtualObjectMethod::markPartTriangles(const scene::WorldGeometry& world, const Prepared& p) {
-  triangles_.isKept.resize(p.objects.indices.size() / 3);
-  for (const raster::TessellatedPart& part : p.objects.parts) {
-    const bool isTwoSided = world.parts[part.part].isSeenFromBehind;
-    core::parallelFor(part.indexCount / 3, 4096, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t t = part.firstIndex / 3 + begin; t < part.firstIndex / 3 + end; ++t) {
-        const std::uint32_t* v = &p.objects.indices[3 * t];
-        int reflected = 0, none = 0;
-        vec3 q[3], j[3];
-        for (int k = 0; k < 3; ++k) {
-          reflected += p.kinds[v[k]] == VertexKind::Reflected;
-          none += p.kinds[v[k]] == VertexKind::None;
-          q[k] = p.objects.positions[v[k]], j[k] = p.reflectionPoints[v[k]];
-        }
-        triangles_.isKept[t] = none == 0 && reflected > 0 && (isTwoSided || facesMirror(q, j));
-      }
-    });
-  }
-}
-
-void VirtualObjectMethod::findPartVertices(raster::FrameContext& frame, const dvec3& drawEye,
+bool VirtualObjectMethod::findPartVertices(raster::FrameContext& frame, const dvec3& drawEye,
                                            InParts::Part& part, Prepared& p) const {
-  part.setEye(*part.shape.mesh, frame.scene.geometry().bounds, drawEye, solverOptions());
-  p.mayReflect.clear();
-  if (part.solver->canReflect())
-    findReflectedRuns(p.runs, part.solver->reflectedCone(), dmat4(1.0), p.mayReflect);
-  part.solver->compute(Solver::Refined, p.objects.positions, p.virtualPositions, p.kinds, p.reflectionPoints,
-                       p.mayReflect, &part.places);
+  const auto start = std::chrono::steady_clock::now();
+  const auto findRuns = [&](bool canReflect, const auto& search) {
+    p.mayReflect.clear();
+    if (canReflect) findReflectedRuns(p.runs, search.reflectedCone(), dmat4(1.0), p.mayReflect);
+    return canReflect;
+  };
+  if (part.shape.bend == Bend::Convex) {
+    part.setEye(*part.shape.mesh, frame.scene.geometry().bounds, drawEye, solverOptions());
+    if (!findRuns(part.solver->canReflect(), *part.solver)) return false;
+    part.solver->compute(Solver::Refined, p.objects.positions, p.virtualPositions, p.kinds,
+                         p.reflectionPoints, p.mayReflect, &part.places);
+  } else {
+    if (!part.intervals)
+      part.intervals = std::make_unique<IntervalSearch>(*part.shape.mesh, drawEye);
+    else if (part.intervals->eye() != drawEye)
+      part.intervals->setEye(drawEye);
+    if (!findRuns(part.intervals->canReflect(), *part.intervals)) return false;
+    part.intervals->compute(p.objects.positions, p.mayReflect, part.isWorthIt, part.found);
+  }
+  const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+  frame.counters.virtualVerticesMs += spent.count();
   const std::size_t culled = p.runs.countLeftOut(p.mayReflect);
   frame.counters.virtualVertices += p.objects.positions.size() - culled;
   frame.counters.culledVertices += culled;
+  return true;
 }
 
-void VirtualObjectMethod::drawPart(raster::FrameContext& frame, const raster::SurfaceView& view,
-                                   const gl::Scissor& bounds, std::uint32_t number, InParts::Part& part,
-                                   Prepared& p) {
+void VirtualObjectMethod::drawInterval(raster::FrameContext& frame, const raster::SurfaceView& view,
+                                       const RayImages& rays, const PartView& part, std::size_t interval,
+                                       const Prepared& p) {
   const scene::WorldGeometry& world = frame.scene.geometry();
-  const bool isConvex = part.shape.bend == Bend::Convex;
+  const bool isConvex = part.part.shape.bend == Bend::Convex;
+  const IntervalVertices& vertices = part.part.found[interval];
+  const std::span<const vec3> positions = isConvex ? p.virtualPositions : vertices.positions;
   if (isConvex)
-    raster::markVirtualTriangles(p.objects, view.drawEye, p.virtualPositions, p.kinds, p.reflectionPoints,
-                                 triangles_);
+    raster::markVirtualTriangles(p.objects, view.drawEye, positions, p.kinds, p.reflectionPoints, triangles_);
   else
-    markPartTriangles(world, p);
+    markIntervalTriangles(p.objects, vertices, triangles_.isKept);
+  // Behind one focus images stand reversed: left is right along one direction only.
   const PictureView picture{mat4(view.clipFromDraw), view.parent->widthPx, view.parent->heightPx,
-                            view.windingFlipped, !isConvex};
-  projectVertices(picture, p.virtualPositions, screen_);
+                            view.windingFlipped != (interval == 1)};
+  std::vector<vec3>& screen = intervalScreens_[interval];
+  projectVertices(picture, positions, screen);
+  const gl::Scissor& bounds = part.bounds;
   frame.counters.culledTriangles +=
-      dropUnseenTriangles(p.objects, world, picture, bounds, screen_, triangles_.isKept);
-  raster::gatherVirtualTriangles(p.objects, p.numbered->indices(), p.isNumbered, triangles_);
-  frame.counters.virtualTriangles += triangles_.indices.size() / 3;
-  ranges_.clear();
-  for (const raster::TessellatedPart& run : triangles_.parts)
-    if (run.indexCount > 0) ranges_.push_back({run.part, run.firstIndex, run.indexCount});
-  partNumberProgram_->use();
-  partImage_->numbers().bind(kPartsUnit);
-  partNumberProgram_->set("u_parts", kPartsUnit);
-  partNumberProgram_->set("u_part", number);
-  gl::setScissor(bounds);
-  p.numbered->draw(frame, view, *partNumberProgram_, p.virtualPositions, triangles_.indices, ranges_,
-                   !isConvex);
+      dropUnseenTriangles(p.objects, world, picture, bounds, screen, triangles_.isKept);
+  mirrorPositions_.clear();
+  for (int y = bounds.y; y < bounds.y + bounds.height; ++y) {
+    const auto row = rays.origins.begin() + std::ptrdiff_t(y) * rays.widthPx + bounds.x;
+    mirrorPositions_.insert(mirrorPositions_.end(), row, row + bounds.width);
+  }
+  const NumberPicture numbers{.clipFromDraw = picture.clipFromDraw,
+                              .drawEye = view.drawEye,
+                              .widthPx = picture.widthPx,
+                              .heightPx = picture.heightPx,
+                              .bounds = bounds,
+                              .mirror = mirrorPositions_,
+                              .parentIds = rays.words,
+                              .parentWord = partPixels_.word,
+                              .screen = screen,
+                              .virtualPositions = positions,
+                              .isKept = triangles_.isKept,
+                              .isWanted = p.isNumbered,
+                              .triangleParts = world.triangleParts};
+  frame.counters.virtualTriangles += raster_.draw(p.objects, numbers, numbers_);
+  // 3
+  confirmPixels(world, rays, {bounds, numbers_, part.number}, partPixels_);
 }
 
 /// Which parts are worth a virtual object, for a new eye. True if any is.
@@ -121,7 +122,7 @@ bool VirtualObjectMethod::forecastParts(const raster::FrameContext& frame, const
   const InParts::Judged now{drawEye, pixelsPerTangent, frame.allParts};
   const auto isAnyWorthIt = [&] {
     return std::any_of(inParts.parts.begin(), inParts.parts.end(),
-                       [](const InParts::Part& part) { return part.isWorthIt; });
+                       [](const InParts::Part& part) { return part.isAnyWorthIt(); });
   };
   if (inParts.judged == now) return isAnyWorthIt();
   inParts.judged = now;
@@ -130,43 +131,43 @@ bool VirtualObjectMethod::forecastParts(const raster::FrameContext& frame, const
   for (const InParts::Part& part : inParts.parts) shapes.push_back(&part.shape);
   const SceneRays rays{exact_.findHierarchy(frame), world.triangleParts, world.reflectors[chain.last].part};
   const std::vector<PartForecast> forecasts = forecastView(shapes, rays, drawEye, pixelsPerTangent);
-  for (std::size_t k = 0; k < shapes.size(); ++k) {
-    const PartCosts costs = expectCosts(forecasts[k], shapes[k]->bend, p.objects.positions.size(),
-                                        shapes[k]->mesh->ordinaryCount());
-    inParts.parts[k].isWorthIt =
-        forecasts[k].suitsVirtualObject() && (frame.allParts || costs.virtualMs < costs.boundMs);
-  }
+  const auto isChosen = chooseParts(shapes, forecasts, p.objects.positions.size(), frame.allParts);
+  for (std::size_t k = 0; k < shapes.size(); ++k)
+    for (std::size_t i = 0; i < kIntervals; ++i)
+      inParts.parts[k].isWorthIt[i] = isChosen[k] != 0 && forecasts[k].shows(i);
   return isAnyWorthIt();
 }
 
-/// Steps 1 and 2.
+/// Steps 1 to 3.
 void VirtualObjectMethod::drawPartNumbers(raster::FrameContext& frame, const raster::Chain& chain,
-                                          const raster::SurfaceView& view, Prepared& p) {
+                                          const raster::SurfaceView& view, const RayImages& rays,
+                                          Prepared& p) {
   if (!partImage_ || !partImage_->fits(view.parent->widthPx, view.parent->heightPx))
     partImage_ = std::make_unique<PartImage>(view.parent->widthPx, view.parent->heightPx);
-  if (!partNumberProgram_)
-    partNumberProgram_ = std::make_unique<gl::Program>("virtual_object/virtual_triangle.vert",
-                                                       "virtual_object/virtual_triangle.frag",
-                                                       std::vector<std::string>{"PART"});
-  if (!p.numbered) p.numbered = std::make_unique<NumberedTriangles>(p.objects);
   // 1
   partImage_->drawParts(p.inParts->buffers, mat4(view.clipFromDraw), chain.bounds);
   partImage_->readParts(chain.bounds, partNumbers_);
+  partPixels_.bounds = chain.bounds;
+  partPixels_.word = chain.parentWord();
+  partPixels_.partNumbers = partNumbers_;
+  partPixels_.confirmed.hits.assign(partNumbers_.size(), uvec2(0));
+  partPixels_.confirmed.depths.assign(partNumbers_.size(), 1.0f);
   // 2
-  shading_.beginHits(chain.bounds);
   for (std::size_t k = 0; k < p.inParts->parts.size(); ++k) {
     InParts::Part& part = p.inParts->parts[k];
-    if (!part.isWorthIt) continue;
+    if (!part.isAnyWorthIt()) continue;
     std::size_t pixels = 0;
-    const gl::Scissor bounds = boundsOf(chain.bounds, partNumbers_, std::uint32_t(k + 1), pixels);
-    if (pixels == 0) continue;
-    const auto start = std::chrono::steady_clock::now();
-    findPartVertices(frame, view.drawEye, part, p);
-    const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
-    frame.counters.virtualVerticesMs += spent.count();
-    if (!part.solver->canReflect()) continue;
-    shading_.continueHits(bounds);
-    drawPart(frame, view, bounds, std::uint32_t(k + 1), part, p);
+    const auto number = std::uint32_t(k + 1);
+    const gl::Scissor bounds = boundsOf(chain.bounds, partNumbers_, number, pixels);
+    if (pixels == 0 || !findPartVertices(frame, view.drawEye, part, p)) continue;
+    for (std::size_t i = 0; i < kIntervals; ++i)
+      if (part.isWorthIt[i]) drawInterval(frame, view, rays, {part, number, bounds}, i, p);
+    if (part.shape.bend != Bend::Convex)
+      drawIncomplete(p.objects, frame.scene.geometry(), rays,
+                     {part.isWorthIt, part.found, intervalScreens_, *part.shape.mesh, view.clipFromDraw,
+                      view.drawEye, view.parent->widthPx, view.parent->heightPx,
+                      0.5 * frame.camera.heightPx / frame.camera.tanHalfFovY, bounds, number},
+                     partPixels_);
   }
 }
 
@@ -180,18 +181,17 @@ void VirtualObjectMethod::drawInParts(raster::FrameContext& frame, const raster:
   }
   const scene::WorldGeometry& world = frame.scene.geometry();
   const RayImages& rays = exact_.findRays(frame, chain, parent);
-  drawPartNumbers(frame, chain, view, p);
-  // 3
-  shading_.readHits(chain.bounds, numbers_.hits);
-  isDone_.resize(numbers_.hits.size());
-  const std::size_t done = checkPixels(world, rays, chain.bounds, chain.parentWord(), numbers_.hits, isDone_);
+  drawPartNumbers(frame, chain, view, rays, p);
+  const std::vector<uvec2>& hits = partPixels_.confirmed.hits;
+  isDone_.resize(hits.size());
+  for (std::size_t i = 0; i < hits.size(); ++i) isDone_[i] = hits[i].x != 0 ? 1 : 0;
+  const auto done = std::size_t(std::count(isDone_.begin(), isDone_.end(), std::uint8_t(1)));
   frame.counters.virtualPixels += done;
   frame.counters.boundedPixels += chain.pixels - done;
   partImage_->setDone(chain.bounds, isDone_);
-  shading_.continueHits(chain.bounds);
-  partImage_->dropHits(chain.bounds);
-  findPartRects(world.triangleParts, chain.bounds, numbers_.hits, frame.parentIds, parent.widthPx,
-                chain.parentWord(), rects_);
+  shading_.uploadHits(chain.bounds, hits, partPixels_.confirmed.depths);
+  findPartRects(world.triangleParts, chain.bounds, hits, frame.parentIds, parent.widthPx, chain.parentWord(),
+                rects_);
   shading_.shadeVirtual(frame, chain, parent, target, false, rects_.inner);
   shading_.shadeVirtual(frame, chain, parent, target, true, rects_.edges);
   // 4

@@ -69,24 +69,13 @@ void PartImage::setDone(const gl::Scissor& bounds, std::span<const std::uint8_t>
   done_.uploadCorner(bounds.width, bounds.height, texels_.data());
 }
 
-void PartImage::dropHits(const gl::Scissor& bounds) {
-  gl::setScissor(bounds);
-  gl::setDrawState({.depthTest = false, .depthWrite = false});
-  drawMask(bounds, false);
-}
-
 void PartImage::closeDone(const gl::Scissor& bounds) {
   gl::setScissor(bounds);
   gl::setDrawState({.depthTest = true, .depthAlways = true, .depthWrite = true});
-  drawMask(bounds, true);
-}
-
-void PartImage::drawMask(const gl::Scissor& bounds, bool wanted) {
   maskProgram_.use();
   done_.bind(raster::kUnitFirstFree);
   maskProgram_.set("u_done", raster::kUnitFirstFree);
   maskProgram_.set("u_corner", vec2(float(bounds.x), float(bounds.y)));
-  maskProgram_.set("u_wanted", wanted ? 1u : 0u);
   nothing_.bind();
   gl::drawScreen();
 }

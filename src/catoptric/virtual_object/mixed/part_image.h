@@ -3,7 +3,7 @@
 // within what is left.
 //
 // Steps: 1 the mirror's parts drawn as numbers, the nearest one kept; 2 which pixels are done, from the
-// processor: the others lose what was drawn there, or the done ones are closed by a depth before everything.
+// processor: they are closed by a depth before everything.
 #pragma once
 
 #include <cstdint>
@@ -41,18 +41,13 @@ class PartImage {
   void drawParts(const PartBuffers& buffers, const mat4& clipFromDraw, const gl::Scissor& bounds);
   /// Number of the part at each pixel of `bounds`, row by row, and 0.
   void readParts(const gl::Scissor& bounds, std::vector<uvec2>& numbers) const;
-  [[nodiscard]] const gl::Texture& numbers() const { return numbers_; }
 
   /// Step 2: `isDone` by pixel of `bounds`.
   void setDone(const gl::Scissor& bounds, std::span<const std::uint8_t> isDone);
-  /// Into the bound target of hits: pixels that are not done have none.
-  void dropHits(const gl::Scissor& bounds);
-  /// Likewise: nothing can be drawn where pixels are done.
+  /// Into the bound target of hits: nothing can be drawn where pixels are done.
   void closeDone(const gl::Scissor& bounds);
 
  private:
-  void drawMask(const gl::Scissor& bounds, bool wanted);
-
   gl::Texture numbers_, depth_, done_;
   gl::Framebuffer target_;
   gl::Program partProgram_{"virtual_object/mirror_part.vert", "virtual_object/mirror_part.frag"};

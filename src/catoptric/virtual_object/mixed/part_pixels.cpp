@@ -2,7 +2,6 @@
 #include "catoptric/virtual_object/mixed/part_pixels.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 #include "catoptric/core/parallel.h"
@@ -43,9 +42,9 @@ float findMiss(const vec3 (&corners)[3], const vec3& origin, const vec3& directi
 
 }  // namespace
 
-std::size_t checkPixels(const scene::WorldGeometry& world, const RayImages& rays, const gl::Scissor& bounds,
-                        std::uint32_t word, std::span<uvec2> hits, std::span<std::uint8_t> isDone) {
-  std::atomic<std::size_t> done{0};
+void confirmPixels(const scene::WorldGeometry& world, const RayImages& rays, const PartPicture& picture,
+                   MirrorPixels& pixels) {
+  const gl::Scissor& bounds = picture.bounds;
   const auto isRight = [&](std::size_t pixel, std::size_t right, std::size_t below, std::uint32_t triangle) {
     vec3 corners[3];
     for (std::size_t k = 0; k < 3; ++k)
@@ -58,23 +57,27 @@ std::size_t checkPixels(const scene::WorldGeometry& world, const RayImages& rays
            kMostMissPx * std::min(findFootprint(rays, pixel, right, t), findFootprint(rays, pixel, below, t));
   };
   core::parallelFor(std::size_t(bounds.height), kRowsPerTask, [&](std::size_t begin, std::size_t end) {
-    std::size_t count = 0;
-    for (std::size_t row = begin; row < end; ++row)
+    for (std::size_t row = begin; row < end; ++row) {
+      const std::size_t y = std::size_t(bounds.y) + row, width = std::size_t(rays.widthPx);
+      const std::size_t first = row * std::size_t(bounds.width);
+      const std::size_t to = (y - std::size_t(pixels.bounds.y)) * std::size_t(pixels.bounds.width) +
+                             std::size_t(bounds.x - pixels.bounds.x);
       for (std::size_t column = 0; column < std::size_t(bounds.width); ++column) {
-        const std::size_t i = row * std::size_t(bounds.width) + column;
-        const std::size_t x = std::size_t(bounds.x) + column, y = std::size_t(bounds.y) + row,
-                          width = std::size_t(rays.widthPx), pixel = y * width + x;
-        isDone[i] = 0;
-        if (hits[i].x == 0 || rays.words[pixel].y != word) continue;
+        const uvec2 hit = picture.image.hits[first + column];
+        uvec2& best = pixels.confirmed.hits[to + column];
+        if (hit.x == 0 || pixels.partNumbers[to + column].x != picture.part) continue;
+        // Lengths are positive: their bits have their order.
+        if (best.x != 0 && best.y <= hit.y) continue;
+        const std::size_t x = std::size_t(bounds.x) + column, pixel = y * width + x;
+        if (rays.words[pixel].y != pixels.word) continue;
         const std::size_t right = x + 1 < width ? pixel + 1 : pixel - 1,
                           below = y > 0 ? pixel - width : pixel + width;
-        isDone[i] = isRight(pixel, right, below, hits[i].x - 1) ? 1 : 0;
-        if (isDone[i] == 0) hits[i].x = 0;
-        count += isDone[i];
+        if (!isRight(pixel, right, below, hit.x - 1)) continue;
+        best = hit;
+        pixels.confirmed.depths[to + column] = picture.image.depths[first + column];
       }
-    done += count;
+    }
   });
-  return done;
 }
 
 }  // namespace catoptric::virtual_object

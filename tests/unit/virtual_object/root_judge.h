@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every point of a surface where the path eye - surface - point is stationary, found without any of the
+// solvers' mathematics: the judge of whether they miss one.
+//
+// In:  a surface or a curve by its parameters; E and Q (same frame).
+// Steps:
+//   1. The derivatives of the path along both parameters, at the nodes and middles of a grid.
+//   2. A cell may hold a root where each derivative's range over its five samples, widened by half its width
+//      to both sides, has 0 in it. Such a cell is cut into four and asked again, kDepth times.
+//   3. What is left: Newton by differences from its middle and its corners.
+// On a curve: the same with one parameter; roots by halving.
+// Known failure: two roots nearer than about 1/1000 of the patch. Cost: 0.3 to 1 ms a pair.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "catoptric/core/math.h"
+
+namespace catoptric::virtual_object {
+
+/// A point and unit tangents along the parameters, not parallel.
+struct PatchPoint {
+  dvec3 at{0}, alongU{0}, alongV{0};
+};
+
+class SurfacePatch {
+ public:
+  using Place = std::function<PatchPoint(const dvec2& uv)>;
+  /// `slack`: a root this far past the edge counts, in parameters.
+  SurfacePatch(Place place, const dvec2& lower, const dvec2& upper, int cellsU, int cellsV);
+
+  [[nodiscard]] std::vector<dvec3> findStationary(const dvec3& eye, const dvec3& point) const;
+
+ private:
+  struct Query;
+  void ask(Query& query, const dvec2& lower, const dvec2& size, int depth) const;
+  void polish(Query& query, dvec2 uv) const;
+
+  Place place_;
+  dvec2 lower_, cell_;
+  int cellsU_, cellsV_;
+  std::vector<PatchPoint> nodes_, middles_;
+};
+
+/// Where a function of an angle is zero, over the whole turn.
+[[nodiscard]] std::vector<double> findAngles(const std::function<double(double radians)>& function);
+
+}  // namespace catoptric::virtual_object
