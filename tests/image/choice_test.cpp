@@ -148,13 +148,12 @@ TEST(Choice, doesNotFlicker) {
 TEST(Choice, isNotAskedAboutWhileFramesPass) {
   Room room = makeFarRoom();
   const auto render = [&](double maxErrorPx, bool isPassing) {
-    return room.renderer
-        .render(room.camera, {.method = Method::Auto,
-                              .widthPx = Room::kWidth,
-                              .heightPx = Room::kHeight,
-                              .maxErrorPx = maxErrorPx,
-                              .isPassing = isPassing})
-        .counters.virtualVertices;
+    const renderer::Frame frame = room.renderer.render(room.camera, {.method = Method::Auto,
+                                                                     .widthPx = Room::kWidth,
+                                                                     .heightPx = Room::kHeight,
+                                                                     .maxErrorPx = maxErrorPx,
+                                                                     .isPassing = isPassing});
+    return frame.counters.virtualVertices + frame.counters.fragmentTests;
   };
   EXPECT_GT(render(20, true), 0u);
   EXPECT_EQ(render(20, false), 0u);  // a map
