@@ -81,7 +81,7 @@ glsl::Surface readSurface(const Rows& r) {
   s.position = vec3(r[0]), s.normal = vec3(r[1]), s.toViewer = vec3(r[2]);
   s.baseColor = vec3(r[3]), s.emissive = vec3(r[4]);
   s.metallic = r[0].w, s.roughness = r[1].w, s.occlusion = r[2].w, s.f0Dielectric = r[3].w;
-  s.reflectivity = r[4].w, s.clearcoat = r[5].w;
+  s.coatNormal = vec3(r[9]), s.reflectivity = r[4].w, s.clearcoat = r[5].w;
   s.eta = r[8].w, s.transmission = r[10].w;
   return s;
 }

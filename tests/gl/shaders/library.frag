@@ -23,6 +23,7 @@ Surface readSurface() {
   s.roughness = row(1).w;
   s.occlusion = row(2).w;
   s.f0Dielectric = row(3).w;
+  s.coatNormal = row(9).xyz;
   s.reflectivity = row(4).w;
   s.clearcoat = row(5).w;
   s.eta = row(8).w;
