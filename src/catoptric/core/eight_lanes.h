@@ -37,9 +37,10 @@ CATOPTRIC_INLINE Eight dot(const Eight* a, const Eight* b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-CATOPTRIC_INLINE Eight squareRoot(Eight a) {
-  for (int i = 0; i < kLanes; ++i) a[i] = std::sqrt(a[i]);
-  return a;
+CATOPTRIC_INLINE Eight squareRoot(const Eight& a) {
+  Eight root = a;
+  for (int i = 0; i < kLanes; ++i) root[i] = std::sqrt(root[i]);
+  return root;
 }
 
 CATOPTRIC_INLINE Eight larger(const Eight& a, const Eight& b) {
