@@ -171,8 +171,4 @@ void drawScreen() {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void flush() {
-  glFlush();
-}
-
 }  // namespace catoptric::gl

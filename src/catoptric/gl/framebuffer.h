@@ -90,7 +90,5 @@ void drawPoints(std::uint32_t vertexCount);
 /// One triangle that covers the target, farther than all else; shaders/raster/screen.vert makes its corners
 /// from gl_VertexID.
 void drawScreen();
-/// Begins what has been drawn so far, and does not wait for it.
-void flush();
 
 }  // namespace catoptric::gl

@@ -251,7 +251,6 @@ void VirtualObjectMethod::render(raster::FrameContext& frame, const raster::Chai
   const bool isComplete = drawObjects(frame, chain, parent, target);
   // 3
   if (!isComplete) background_.draw(frame.scene, chain, parent, target, true, rects_.rest);
-  gl::flush();  // GL in software shades this mirror while the next one is prepared
 }
 
 }  // namespace catoptric::virtual_object
