@@ -137,8 +137,8 @@ void MethodChooser::addCandidates(Mirror& mirror, const scene::CameraFrame& came
   MirrorLoad load = measureLoad(mirror.mesh, rays, geometry_, camera.eye, samples);
   // Before its triangles are counted, which takes long where a scene has many.
   const bool mayRefine =
-      mirror.mesh.isConvex() && (options.withFigures || expectRefinedMs(load) < expectExactMs(load));
-  if (options.withFigures || mayRefine) load.triangles = findTriangles(mirror, camera, options);
+      mirror.mesh.isConvex() && (!options.isForFrame || expectRefinedMs(load) < expectExactMs(load));
+  if (!options.isForFrame || mayRefine) load.triangles = findTriangles(mirror, camera, options);
   ViewForecast forecast = forecastParts(mirror, camera, options, rays, load);
   forecast.pixels = load.pixels, forecast.offered = load.offered, forecast.triangles = load.triangles;
   choice.forecast = forecast;
@@ -146,7 +146,7 @@ void MethodChooser::addCandidates(Mirror& mirror, const scene::CameraFrame& came
   const environment_map::MapView map(geometry_, triangles_, mirror.reflector, options.boxCorrected);
   const MapError error = expectMapError(
       {geometry_, mirror.reflector, mirror.mesh, rays, map, camera, options.mapTexels, options.bounces},
-      samples, options.withFigures ? kLostPx : options.maxErrorPx);
+      samples, options.isForFrame ? options.maxErrorPx : kLostPx);
   choice.candidates.push_back(
       {Method::Environment, Solver::Auto, error.worstPx(), error.isAtLeast, expectMapMs(load)});
   if (mayRefine)
@@ -168,7 +168,7 @@ MethodChoice MethodChooser::choose(std::uint32_t reflector, const scene::CameraF
   const double pixels = choice.forecast->pixels;
   if (choice.candidates.empty()) {
     choice.reason += "; this camera does not see it";
-  } else if (!options.isLarge && pixels < kFewPixels) {  // 2
+  } else if (!options.isForFrame && pixels < kFewPixels) {  // 2
     choice.method = Method::Environment;
     choice.solver = Solver::Auto;
     choice.reason = fmt::format("it covers about {:.0f} pixels, fewer than {}, and nothing has moved", pixels,

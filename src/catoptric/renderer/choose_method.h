@@ -44,8 +44,9 @@ struct ChoiceOptions {
   bool boxCorrected = true;
   int mapTexels = 512;
   const raster::LevelsOfDetail* levels = nullptr;  ///< of the scene, where they have been made
-  bool withFigures = true;  ///< false: an error past the bound is only known to be past it
-  bool isLarge = false;     ///< kFewPixels or more were counted, whatever samples say
+  /// For a frame: kFewPixels or more were counted, whatever samples say, and what cannot be picked need not
+  /// be known. An error past the bound is then only known to be past it.
+  bool isForFrame = false;
   bool operator==(const ChoiceOptions&) const = default;
 };
 

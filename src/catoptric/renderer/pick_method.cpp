@@ -80,8 +80,7 @@ const MethodChoice& RasterFrame::askForChoice(const raster::FrameContext& contex
                             .boxCorrected = options.boxCorrected,
                             .mapTexels = options.environmentMapSize,
                             .levels = scene_.levelsSoFar(),
-                            .withFigures = false,
-                            .isLarge = true};  // pickMethod() has seen to smaller ones
+                            .isForFrame = true};  // pickMethod() has seen to smaller ones
   const double pixelsPerTangent = 0.5 * camera.heightPx / camera.tanHalfFovY;
   if (!chooser_) chooser_ = std::make_unique<MethodChooser>(geometry_, exact_.findHierarchy(context));
   const auto found = chosen_.find(reflector);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The formulas of shaders/lib that place virtual vertices, compiled as C++ in double: the processor's solvers
-// and the vertex shader share one text.
+// and the vertex shader share one text. And a ray against a triangle, in float.
 #pragma once
 
 #include <cmath>
@@ -16,6 +16,7 @@ using Real3 = dvec3;
 
 #define CATOPTRIC_FN inline
 #include "lib/mirror_law.glsl"
+#include "lib/ray_triangle.glsl"
 #include "lib/virtual_vertex.glsl"
 #undef CATOPTRIC_FN
 

@@ -16,11 +16,7 @@ namespace {
 
 /// Pixels whose nearest triangle was not among those that were offered to them; `hits`: pixels that meet any.
 int countMissed(const RayImages& rays, const TriangleHierarchy& hierarchy, const Cover& cover, int& hits) {
-  std::vector<std::set<std::uint32_t>> offered(rays.origins.size());
-  for (const CoverRect& r : cover.opaque)
-    for (int y = r.y; y < r.y + r.height; ++y)
-      for (int x = r.x; x < r.x + r.width; ++x)
-        offered[std::size_t(y) * std::size_t(rays.widthPx) + std::size_t(x)].insert(r.item);
+  const auto offered = findOffered(rays, cover.opaque);
   int missed = 0;
   hits = 0;
   for (std::size_t i = 0; i < rays.origins.size(); ++i) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <set>
+#include <span>
 #include <vector>
 
 #include "catoptric/geometry/triangle_hierarchy.h"
@@ -60,6 +62,17 @@ inline std::vector<HierarchyTriangle> makeTriangles(std::uint32_t count, double 
     triangles.push_back({corner(), corner(), corner(), i, i % 5, i % 3 == 0 ? kCoverSingleSided : 0u});
   }
   return triangles;
+}
+
+/// By pixel, the items of the rectangles that cover it.
+inline std::vector<std::set<std::uint32_t>> findOffered(const RayImages& rays,
+                                                        std::span<const CoverRect> rects) {
+  std::vector<std::set<std::uint32_t>> offered(rays.origins.size());
+  for (const CoverRect& r : rects)
+    for (int y = r.y; y < r.y + r.height; ++y)
+      for (int x = r.x; x < r.x + r.width; ++x)
+        offered[std::size_t(y) * std::size_t(rays.widthPx) + std::size_t(x)].insert(r.item);
+  return offered;
 }
 
 inline CoverQuery wholePicture() {

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <set>
 
+#include "catoptric/virtual_object/formulas.h"
 #include "exact_rays.h"
 
 namespace catoptric::virtual_object {
@@ -85,6 +85,31 @@ TEST_P(EveryMirrorsHits, AreTheTrianglesThatItsPixelsSee) {
 INSTANTIATE_TEST_SUITE_P(Exact, EveryMirrorsHits, testing::ValuesIn(kMirrors),
                          [](const auto& mirror) { return mirror.param.name; });
 
+/// Eight rays side by side meet what the shader's text says, to the bit.
+TEST(RayLanesTest, AreTheFormulaThatShadersHave) {
+  std::mt19937 random(9);
+  const RayImages rays = makeRays(0.7, 0.3);
+  RayLanes lanes;
+  int hits = 0;
+  for (const HierarchyTriangle& t : makeTriangles(60, 1.5, random)) {
+    const vec3 normal = glm::cross(t.b - t.a, t.c - t.a);
+    const bool isSingleSided = (t.flags & kCoverSingleSided) != 0;
+    const RayLanes::Test test{t.a, t.b, t.c, normal, t.triangle, isSingleSided};
+    lanes.assign(rays.origins, rays.directions);
+    lanes.meet(std::span(&test, 1));
+    for (std::size_t i = 0; i < rays.origins.size(); ++i) {
+      const vec3 o(rays.origins[i]);
+      const formulas::RayHit hit = formulas::meetTriangle(vec3(rays.directions[i]), rays.directions[i].w,
+                                                          t.a - o, t.b - o, t.c - o, normal);
+      const bool isHit = hit.isHit && (hit.isFront || !isSingleSided);
+      EXPECT_EQ(lanes.triangle(i), isHit ? t.triangle : core::kNoId);
+      EXPECT_EQ(lanes.distance(i), isHit ? hit.t : std::numeric_limits<float>::infinity());
+      hits += isHit ? 1 : 0;
+    }
+  }
+  EXPECT_GT(hits, 1000);
+}
+
 TEST(TileHitsTest, HandOnWhatATextureMayCutOut) {
   std::mt19937 random(5);
   std::vector<HierarchyTriangle> triangles = makeTriangles(400, 0.5, random);
@@ -93,13 +118,8 @@ TEST(TileHitsTest, HandOnWhatATextureMayCutOut) {
   const TriangleHierarchy hierarchy(triangles);
   const RayImages rays = makeRays(-0.6, 0.0);
   const Found found = findHits(hierarchy, rays, wholePicture());
-  std::vector<std::set<std::uint32_t>> offered(rays.origins.size());
-  for (const CoverRect& r : found.cover.masked) {
-    EXPECT_EQ(triangles[r.item].part, 1u);
-    for (int y = r.y; y < r.y + r.height; ++y)
-      for (int x = r.x; x < r.x + r.width; ++x)
-        offered[std::size_t(y) * std::size_t(rays.widthPx) + std::size_t(x)].insert(r.item);
-  }
+  for (const CoverRect& r : found.cover.masked) EXPECT_EQ(triangles[r.item].part, 1u);
+  const auto offered = findOffered(rays, found.cover.masked);
   int seen = 0;
   for (std::size_t ray = 0; ray < rays.origins.size(); ++ray) {
     if (rays.words[ray].y != kWord) continue;

@@ -20,9 +20,6 @@ std::vector<geometry::HierarchyTriangle> listCoverTriangles(const raster::SceneB
 
 }  // namespace
 
-ExactMethod::ExactMethod(HitShading& shading)
-    : shading_(shading), hitProgram_("virtual_object/exact_cover.vert", "virtual_object/exact_hit.frag") {}
-
 void ExactMethod::prepareScene(const raster::FrameContext& frame) {
   if (hierarchy_) return;
   hierarchy_ = std::make_unique<TriangleHierarchy>(listCoverTriangles(frame.scene));
@@ -93,9 +90,12 @@ void ExactMethod::drawHits(raster::FrameContext& frame, const raster::Chain& cha
   if (image) image->closeDone(chain.bounds);
   gl::setDrawState({.depthTest = true, .depthWrite = true});
   if (testsByGl_) {
-    hitProgram_.use();
-    shading_.bindInputs(hitProgram_, parent, chain);
-    hitProgram_.set("u_ownPart", query.ownPart);
+    if (!hitProgram_)
+      hitProgram_ =
+          std::make_unique<gl::Program>("virtual_object/exact_cover.vert", "virtual_object/exact_hit.frag");
+    hitProgram_->use();
+    shading_.bindInputs(*hitProgram_, parent, chain);
+    hitProgram_->set("u_ownPart", query.ownPart);
     shading_.drawRects(cover_.opaque);
   }
   const std::vector<std::uint32_t>& parts = frame.scene.geometry().triangleParts;

@@ -39,7 +39,7 @@ namespace catoptric::virtual_object {
 class ExactMethod : public raster::ReflectionMethod {
  public:
   /// `shading` must outlive the method.
-  explicit ExactMethod(HitShading& shading);
+  explicit ExactMethod(HitShading& shading) : shading_(shading) {}
   /// Whether GL tests opaque triangles; else the processor does.
   void testByGl(bool byGl) { testsByGl_ = byGl; }
   [[nodiscard]] std::string_view name() const override { return "virtual"; }
@@ -87,7 +87,7 @@ class ExactMethod : public raster::ReflectionMethod {
 
   HitShading& shading_;
   raster::MirrorBackgroundPass background_;
-  gl::Program hitProgram_;
+  std::unique_ptr<gl::Program> hitProgram_;  ///< made when first needed
   std::unique_ptr<TriangleHierarchy> hierarchy_;
   std::optional<TileCover> tiles_;
   std::optional<TileHits> tileHits_;

@@ -15,7 +15,7 @@ using core::EightInts;
 using core::kLanes;
 
 constexpr float kMiss = std::numeric_limits<float>::infinity();
-constexpr float kEdgeSlack = 1e-6f;  // as in exact_ray.glsl
+constexpr float kEdgeSlack = 1e-6f;  // as in lib/ray_triangle.glsl
 
 /// What MeetAll works on.
 struct Lanes {

@@ -4,10 +4,7 @@
 //
 // In:  the rays of a tile of mirror pixels and opaque triangles that they may meet (tile_hits.h).
 // Out: the nearest triangle that each ray meets, and how far away.
-// The signs and the distance are those of meetTriangle() in shaders/virtual_object/exact_ray.glsl: a test
-// holds the two together (tests/gl/backend_test.cpp).
-// Cost: about 1.5 ns a ray and triangle; a rectangle that GL draws in software costs a microsecond before its
-// first pixel.
+// The signs and the distance are those of meetTriangle() in shaders/lib/ray_triangle.glsl: to the bit.
 // Source: our own; the fragment's test after Hou 2006 and Liu 2011.
 #pragma once
 

@@ -13,11 +13,6 @@ constexpr int kSmallEdge = 4;    // tiles are cut no further unless their rays h
 constexpr std::size_t kFew = 3;  // a tile with no more triangles is not cut
 constexpr int kStackSize = 128;  // of the hierarchy's traversal: depth is bounded by its builder
 
-template <class T>
-void append(std::vector<T>& to, const std::vector<T>& from) {
-  to.insert(to.end(), from.begin(), from.end());
-}
-
 /// Keeps what may be met, and how far away the nearest triangle that hides everything behind it is at most.
 struct Sieve {
   const RayShaft& shaft;
@@ -37,11 +32,7 @@ struct Sieve {
 }  // namespace
 
 void TileCover::compute(const RayImages& rays, const CoverQuery& query, Cover& cover) {
-  cover.opaque.clear();
-  cover.masked.clear();
-  cover.blended.clear();
-  cover.parts.clear();
-  cover.offeredPixels = 0;
+  cover.clear();
   if (hierarchy_.nodes().empty()) return;
   constexpr int kEdge = 1 << (kLevels - 1);
   const int x0 = query.x / kEdge, y0 = query.y / kEdge;
@@ -53,62 +44,34 @@ void TileCover::compute(const RayImages& rays, const CoverQuery& query, Cover& c
   core::parallelFor(count, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Root& root = roots_[i];
-      root.cover.opaque.clear();
-      root.cover.masked.clear();
-      root.cover.blended.clear();
-      root.cover.parts.clear();
-      root.cover.offeredPixels = 0;
-      coverTile(job, {(x0 + int(i) % columns) * kEdge, (y0 + int(i) / columns) * kEdge, 0}, nullptr, root);
+      root.cover.clear();
+      const MirrorTile tile{(x0 + int(i) % columns) * kEdge, (y0 + int(i) / columns) * kEdge, kEdge};
+      coverTile(job, tile, 0, nullptr, root);
     }
   });
-  for (std::size_t i = 0; i < count; ++i) {
-    const Cover& part = roots_[i].cover;
-    append(cover.opaque, part.opaque);
-    append(cover.masked, part.masked);
-    append(cover.blended, part.blended);
-    append(cover.parts, part.parts);
-    cover.offeredPixels += part.offeredPixels;
-  }
+  for (std::size_t i = 0; i < count; ++i) cover.append(roots_[i].cover);
 }
 
-void TileCover::coverTile(const Job& job, const Tile& tile, const std::vector<Candidate>* from,
-                          Root& root) const {
+void TileCover::coverTile(const Job& job, const MirrorTile& tile, std::size_t level,
+                          const std::vector<Candidate>* from, Root& root) const {
   // 1
-  if (!gatherRays(job, tile, root)) return;
-  const std::optional<RayShaft> shaft = RayShaft::find({root.origins, root.directions}, job.query.reach);
+  if (!root.rays.gather(job.rays, job.query, tile)) return;
+  const std::optional<RayShaft> shaft =
+      RayShaft::find({root.rays.origins, root.rays.directions}, job.query.reach);
   if (shaft) {
     // 2, 3
-    std::vector<Candidate>& candidates = root.candidates[std::size_t(tile.level)];
+    std::vector<Candidate>& candidates = root.candidates[level];
     findCandidates(job, *shaft, from, candidates);
     if (candidates.empty()) return;
     // 4
-    if (tile.edge() <= kSmallEdge || candidates.size() <= kFew) {
+    if (tile.edge <= kSmallEdge || candidates.size() <= kFew) {
       emitTile(job, tile, candidates, root);
       return;
     }
     from = &candidates;
   }
-  if (tile.level + 1 == kLevels) return;  // one ray without a direction
-  const int half = tile.edge() / 2;
-  for (int quarter = 0; quarter < 4; ++quarter)
-    coverTile(job, {tile.x + (quarter & 1) * half, tile.y + (quarter >> 1) * half, tile.level + 1}, from,
-              root);
-}
-
-bool TileCover::gatherRays(const Job& job, const Tile& tile, Root& root) {
-  const CoverQuery& q = job.query;
-  root.origins.clear();
-  root.directions.clear();
-  const int x0 = std::max(tile.x, q.x), x1 = std::min(tile.x + tile.edge(), q.x + q.width);
-  const int y0 = std::max(tile.y, q.y), y1 = std::min(tile.y + tile.edge(), q.y + q.height);
-  for (int y = y0; y < y1; ++y)
-    for (int x = x0; x < x1; ++x) {
-      const std::size_t i = std::size_t(y) * std::size_t(job.rays.widthPx) + std::size_t(x);
-      if (job.rays.words[i].y != q.word) continue;
-      root.origins.push_back(job.rays.origins[i]);
-      root.directions.push_back(job.rays.directions[i]);
-    }
-  return !root.origins.empty();
+  if (tile.edge == 1) return;  // one ray without a direction
+  for (int k = 0; k < 4; ++k) coverTile(job, tile.quarter(k), level + 1, from, root);
 }
 
 void TileCover::findCandidates(const Job& job, const RayShaft& shaft, const std::vector<Candidate>* from,
@@ -143,12 +106,9 @@ void TileCover::findCandidates(const Job& job, const RayShaft& shaft, const std:
   std::erase_if(candidates, [limit](const Candidate& c) { return double(c.nearest) > limit; });
 }
 
-void TileCover::emitTile(const Job& job, const Tile& tile, const std::vector<Candidate>& candidates,
+void TileCover::emitTile(const Job& job, const MirrorTile& tile, const std::vector<Candidate>& candidates,
                          Root& root) const {
-  const CoverQuery& q = job.query;
-  const int x0 = std::max(tile.x, q.x), x1 = std::min(tile.x + tile.edge(), q.x + q.width);
-  const int y0 = std::max(tile.y, q.y), y1 = std::min(tile.y + tile.edge(), q.y + q.height);
-  CoverRect rect{std::uint16_t(x0), std::uint16_t(y0), std::uint16_t(x1 - x0), std::uint16_t(y1 - y0), 0};
+  CoverRect rect = tile.within(job.query);
   root.parts.clear();
   for (const Candidate& candidate : candidates) {
     const HierarchyTriangle& t = hierarchy_.triangles()[candidate.index];
@@ -159,8 +119,7 @@ void TileCover::emitTile(const Job& job, const Tile& tile, const std::vector<Can
     }
     ((t.flags & kCoverMasked) != 0 ? root.cover.masked : root.cover.opaque).push_back(rect);
     root.cover.offeredPixels += std::uint64_t(rect.width) * rect.height;
-    if (std::find(root.parts.begin(), root.parts.end(), t.part) == root.parts.end())
-      root.parts.push_back(t.part);
+    notePart(t.part, root.parts);
   }
   for (const std::uint32_t part : root.parts) {
     rect.item = part;

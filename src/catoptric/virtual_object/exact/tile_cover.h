@@ -19,41 +19,16 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include "catoptric/core/math.h"
-#include "catoptric/core/seen.h"
 #include "catoptric/geometry/triangle_hierarchy.h"
+#include "catoptric/virtual_object/exact/mirror_tiles.h"
 #include "catoptric/virtual_object/exact/ray_shaft.h"
-#include "catoptric/virtual_object/hit_shading.h"
 
 namespace catoptric::virtual_object {
 
 using geometry::HierarchyTriangle;
 using geometry::TriangleHierarchy;
-
-/// Rays of a picture's mirror pixels, bottom row first as on the GPU. `words`: ids of
-/// raster/level_pixels.glsl.
-struct RayImages {
-  int widthPx = 0, heightPx = 0;
-  std::vector<vec4> origins, directions;
-  std::vector<uvec2> words;
-};
-
-struct CoverQuery {
-  int x = 0, y = 0, width = 0, height = 0;  ///< bounds of the mirror's pixels
-  std::uint32_t word = 0;                   ///< which pixels in them
-  std::uint32_t excludedPart = core::kNoId;
-  std::uint32_t ownPart = core::kNoId;  ///< never hides anything: rays may start on its triangles
-  double reach = 0;                     ///< no point of the scene is farther from a mirror pixel
-};
-
-struct Cover {
-  std::vector<CoverRect> opaque, masked, blended;  ///< item: triangle
-  std::vector<CoverRect> parts;     ///< item: part of opaque and masked ones; disjoint for each part
-  std::uint64_t offeredPixels = 0;  ///< pixels of opaque and masked, counted once for each triangle
-};
 
 class TileCover {
  public:
@@ -68,7 +43,7 @@ class TileCover {
   };
   static constexpr int kLevels = 6;  ///< edges 32 to 1
   struct Root {
-    std::vector<vec4> origins, directions;
+    TileRays rays;
     std::array<std::vector<Candidate>, kLevels> candidates;
     std::vector<std::uint32_t> parts;
     Cover cover;
@@ -77,16 +52,13 @@ class TileCover {
     const RayImages& rays;
     const CoverQuery& query;
   };
-  struct Tile {
-    int x, y, level;
-    [[nodiscard]] int edge() const { return 1 << (kLevels - 1 - level); }
-  };
 
-  void coverTile(const Job& job, const Tile& tile, const std::vector<Candidate>* from, Root& root) const;
-  static bool gatherRays(const Job& job, const Tile& tile, Root& root);
+  void coverTile(const Job& job, const MirrorTile& tile, std::size_t level,
+                 const std::vector<Candidate>* from, Root& root) const;
   void findCandidates(const Job& job, const RayShaft& shaft, const std::vector<Candidate>* from,
                       std::vector<Candidate>& candidates) const;
-  void emitTile(const Job& job, const Tile& tile, const std::vector<Candidate>& candidates, Root& root) const;
+  void emitTile(const Job& job, const MirrorTile& tile, const std::vector<Candidate>& candidates,
+                Root& root) const;
 
   const TriangleHierarchy& hierarchy_;
   std::vector<Root> roots_;

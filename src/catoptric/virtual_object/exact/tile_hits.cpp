@@ -12,6 +12,9 @@
 namespace catoptric::virtual_object {
 namespace {
 
+using geometry::HierarchyTriangle;
+using geometry::TriangleHierarchy;
+
 constexpr int kBlockEdge = 32;           // what a core takes at a time
 constexpr int kTileEdge = 8;             // eight lanes a row
 constexpr int kSmallEdge = 4;            // tiles are cut no further unless their rays have no shaft
@@ -19,30 +22,11 @@ constexpr double kWide = 0.2;            // a shaft that spreads more opens too 
 constexpr std::size_t kStackSize = 128;  // of the traversal: the hierarchy's builder bounds its depth
 constexpr float kFarthest = 0.9999999f;  // depth, as in exact_hit.frag
 
-void note(std::uint32_t part, std::vector<std::uint32_t>& parts) {
-  if (std::find(parts.begin(), parts.end(), part) == parts.end()) parts.push_back(part);
-}
-
-void clear(Cover& cover) {
-  cover.opaque.clear();
-  cover.masked.clear();
-  cover.blended.clear();
-  cover.parts.clear();
-  cover.offeredPixels = 0;
-}
-
-void append(const Cover& from, Cover& to) {
-  to.masked.insert(to.masked.end(), from.masked.begin(), from.masked.end());
-  to.blended.insert(to.blended.end(), from.blended.begin(), from.blended.end());
-  to.parts.insert(to.parts.end(), from.parts.begin(), from.parts.end());
-  to.offeredPixels += from.offeredPixels;
-}
-
 }  // namespace
 
 void TileHits::compute(const RayImages& rays, const CoverQuery& query, float depthFromDistance, Cover& cover,
                        HitImage& image) {
-  clear(cover);
+  cover.clear();
   const std::size_t pixels = std::size_t(query.width) * std::size_t(query.height);
   image.hits.assign(pixels, uvec2(0u));
   image.depths.assign(pixels, 1.0f);
@@ -55,48 +39,30 @@ void TileHits::compute(const RayImages& rays, const CoverQuery& query, float dep
   const Job job{rays, query, depthFromDistance, image};
   core::parallelFor(count, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      clear(blocks_[i].cover);
+      blocks_[i].cover.clear();
       const int x = (x0 + int(i) % columns) * kBlockEdge, y = (y0 + int(i) / columns) * kBlockEdge;
       for (int dy = 0; dy < kBlockEdge; dy += kTileEdge)
         for (int dx = 0; dx < kBlockEdge; dx += kTileEdge)
           findHits(job, {x + dx, y + dy, kTileEdge}, blocks_[i]);
     }
   });
-  for (std::size_t i = 0; i < count; ++i) append(blocks_[i].cover, cover);
+  for (std::size_t i = 0; i < count; ++i) cover.append(blocks_[i].cover);
 }
 
-void TileHits::findHits(const Job& job, const Tile& tile, Block& block) const {
+void TileHits::findHits(const Job& job, const MirrorTile& tile, Block& block) const {
   // 1
-  if (!gatherRays(job, tile, block)) return;
-  const std::optional<RayShaft> shaft = RayShaft::find({block.origins, block.directions}, job.query.reach);
+  if (!block.rays.gather(job.rays, job.query, tile)) return;
+  const std::optional<RayShaft> shaft =
+      RayShaft::find({block.rays.origins, block.rays.directions}, job.query.reach);
   if (shaft && (tile.edge <= kSmallEdge || shaft->spread() < kWide)) {
     openBoxes(job, *shaft, block);
     block.parts.clear();
     writeHits(job, block);
-    emitDoubtful(tile, job, block);
+    emitDoubtful(job, tile, block);
     return;
   }
-  const int half = tile.edge / 2;  // 0: one ray without a direction
-  for (int quarter = 0; half > 0 && quarter < 4; ++quarter)
-    findHits(job, {tile.x + (quarter & 1) * half, tile.y + (quarter >> 1) * half, half}, block);
-}
-
-bool TileHits::gatherRays(const Job& job, const Tile& tile, Block& block) {
-  const CoverQuery& q = job.query;
-  block.origins.clear();
-  block.directions.clear();
-  block.pixels.clear();
-  const int x0 = std::max(tile.x, q.x), x1 = std::min(tile.x + tile.edge, q.x + q.width);
-  const int y0 = std::max(tile.y, q.y), y1 = std::min(tile.y + tile.edge, q.y + q.height);
-  for (int y = y0; y < y1; ++y)
-    for (int x = x0; x < x1; ++x) {
-      const std::size_t i = std::size_t(y) * std::size_t(job.rays.widthPx) + std::size_t(x);
-      if (job.rays.words[i].y != q.word) continue;
-      block.origins.push_back(job.rays.origins[i]);
-      block.directions.push_back(job.rays.directions[i]);
-      block.pixels.push_back(std::uint32_t((y - q.y) * q.width + (x - q.x)));
-    }
-  return !block.origins.empty();
+  if (tile.edge == 1) return;  // one ray without a direction
+  for (int k = 0; k < 4; ++k) findHits(job, tile.quarter(k), block);
 }
 
 void TileHits::openBoxes(const Job& job, const RayShaft& shaft, Block& block) const {
@@ -109,7 +75,7 @@ void TileHits::openBoxes(const Job& job, const RayShaft& shaft, Block& block) co
   const auto open = [&](std::uint32_t node) {
     return Box{node, shaft.findNearest(nodes[node].lower, nodes[node].upper)};
   };
-  block.lanes.assign(block.origins, block.directions);
+  block.lanes.assign(block.rays.origins, block.rays.directions);
   block.doubtful.clear();
   double hiddenFrom = std::numeric_limits<double>::infinity();  // height: a ray that begins late is hit
                                                                 // farther up than it is long
@@ -148,27 +114,24 @@ float TileHits::testLeaf(const Job& job, const RayShaft& shaft, const TriangleHi
     block.tests.push_back(
         {t.a, t.b, t.c, glm::cross(t.b - t.a, t.c - t.a), i, isSingleSided, t.part == job.query.ownPart});
   }
-  block.cover.offeredPixels += block.tests.size() * block.pixels.size();
+  block.cover.offeredPixels += block.tests.size() * block.rays.pixels.size();
   return block.lanes.meet(block.tests);
 }
 
 void TileHits::writeHits(const Job& job, Block& block) const {
-  for (std::size_t ray = 0; ray < block.pixels.size(); ++ray) {
+  for (std::size_t ray = 0; ray < block.rays.pixels.size(); ++ray) {
     const std::uint32_t index = block.lanes.triangle(ray);
     if (index == core::kNoId) continue;
     const HierarchyTriangle& t = hierarchy_.triangles()[index];
     const float distance = block.lanes.distance(ray);
-    job.image.hits[block.pixels[ray]] = uvec2(t.triangle + 1, std::bit_cast<std::uint32_t>(distance));
-    job.image.depths[block.pixels[ray]] = std::min(distance * job.depthFromDistance, kFarthest);
-    note(t.part, block.parts);
+    job.image.hits[block.rays.pixels[ray]] = uvec2(t.triangle + 1, std::bit_cast<std::uint32_t>(distance));
+    job.image.depths[block.rays.pixels[ray]] = std::min(distance * job.depthFromDistance, kFarthest);
+    notePart(t.part, block.parts);
   }
 }
 
-void TileHits::emitDoubtful(const Tile& tile, const Job& job, Block& block) const {
-  const CoverQuery& q = job.query;
-  const int x0 = std::max(tile.x, q.x), x1 = std::min(tile.x + tile.edge, q.x + q.width);
-  const int y0 = std::max(tile.y, q.y), y1 = std::min(tile.y + tile.edge, q.y + q.height);
-  CoverRect rect{std::uint16_t(x0), std::uint16_t(y0), std::uint16_t(x1 - x0), std::uint16_t(y1 - y0), 0};
+void TileHits::emitDoubtful(const Job& job, const MirrorTile& tile, Block& block) const {
+  CoverRect rect = tile.within(job.query);
   for (const Doubtful& doubtful : block.doubtful) {
     const HierarchyTriangle& t = hierarchy_.triangles()[doubtful.index];
     rect.item = t.triangle;
@@ -178,7 +141,7 @@ void TileHits::emitDoubtful(const Tile& tile, const Job& job, Block& block) cons
     }
     block.cover.masked.push_back(rect);
     block.cover.offeredPixels += std::uint64_t(rect.width) * rect.height;
-    note(t.part, block.parts);
+    notePart(t.part, block.parts);
   }
   for (const std::uint32_t part : block.parts) {
     rect.item = part;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "catoptric/core/parallel.h"
+#include "catoptric/virtual_object/formulas.h"
 
 namespace catoptric::virtual_object {
 namespace {
@@ -118,16 +119,9 @@ float meet(const scene::WorldGeometry& world, const Bound& bound, const Ray& ray
   const std::uint32_t* v = &world.indices[3 * std::size_t(bound.triangle)];
   const vec3 a = world.positions[v[0]] - ray.origin, b = world.positions[v[1]] - ray.origin,
              c = world.positions[v[2]] - ray.origin;
-  const vec3 n = glm::cross(b - a, c - a);
-  const float across = glm::dot(ray.direction, n);
-  if (!(across < 0.0f) && !(bound.isTwoSided && across > 0.0f)) return -1.0f;
-  const float sign = across < 0.0f ? -1.0f : 1.0f;
-  if (sign * glm::dot(ray.direction, glm::cross(a, b)) < 0.0f ||
-      sign * glm::dot(ray.direction, glm::cross(b, c)) < 0.0f ||
-      sign * glm::dot(ray.direction, glm::cross(c, a)) < 0.0f)
-    return -1.0f;
-  const float t = glm::dot(a, n) / across;
-  return t > ray.start ? t : -1.0f;
+  const formulas::RayHit hit =
+      formulas::meetTriangle(ray.direction, ray.start, a, b, c, glm::cross(b - a, c - a));
+  return hit.isHit && (hit.isFront || bound.isTwoSided) ? hit.t : -1.0f;
 }
 
 /// Of the virtual point on the ray from the eye through a point of the mirror, as a depth buffer has it.

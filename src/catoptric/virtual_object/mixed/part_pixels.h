@@ -15,7 +15,7 @@
 
 #include "catoptric/gl/framebuffer.h"
 #include "catoptric/scene/world_geometry.h"
-#include "catoptric/virtual_object/exact/tile_cover.h"
+#include "catoptric/virtual_object/exact/mirror_tiles.h"
 #include "catoptric/virtual_object/number_raster.h"
 
 namespace catoptric::virtual_object {
