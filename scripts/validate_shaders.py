@@ -20,6 +20,8 @@ INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"\s*$', re.M)
 SWITCH = re.compile(r"^\s*#\s*(?:if|ifdef|ifndef)\s+(?:defined\s*\(?\s*)?([A-Z][A-Z0-9_]*)\b", re.M)
 SAMPLERS = [p + s for p in ("", "i", "u") for s in ("sampler2D", "sampler3D", "samplerCube", "sampler2DArray")]
 SAMPLERS += ["sampler2DShadow", "samplerCubeShadow", "sampler2DArrayShadow"]
+PREAMBLE = ("#define Real float\n#define Real2 vec2\n#define Real3 vec3\n#define choose(c, a, b) ((c) ? (a) : (b))\n"
+            "#define anyLane(c) (c)\n#define CATOPTRIC_FN\n")  # src/catoptric/gl/program.cpp
 DIALECTS = {
     "330 core": "#version 330 core\n",
     "300 es": "#version 300 es\nprecision highp float;\nprecision highp int;\n"
@@ -52,7 +54,7 @@ def compile_one(job):
         expand(path, 0, lines, sources)
     except FileNotFoundError as error:
         return [f"shaders/{path}: {error}"]
-    head = DIALECTS[dialect] + "#define Real float\n#define Real2 vec2\n#define Real3 vec3\n#define CATOPTRIC_FN\n" + "".join(f"#define {s} 1\n" for s in switches)
+    head = DIALECTS[dialect] + PREAMBLE + "".join(f"#define {s} 1\n" for s in switches)
     stage = {".vert": "vert", ".frag": "frag"}.get(os.path.splitext(path)[1])
     tail = "" if stage else "\nvoid main() {}\n"
     with tempfile.NamedTemporaryFile("w", suffix=".glsl", encoding="utf-8") as file:
@@ -84,7 +86,7 @@ def main():
             path = os.path.relpath(os.path.join(root, name), FOLDER)
             with open(os.path.join(FOLDER, path), encoding="utf-8") as file:
                 text = file.read()
-            switches = sorted(set(SWITCH.findall(text)) - {"GL_ES", "CATOPTRIC_FN"})
+            switches = sorted(set(SWITCH.findall(text)) - {"GL_ES", "CATOPTRIC_FN", "CATOPTRIC_LANES"})
             used.update(INCLUDE.findall(text))
             if name.endswith(".glsl") and not path.startswith("lib/"):
                 parts.add(path)

@@ -2,8 +2,6 @@
 // The light that leaves a surface towards the eye, metallic-roughness model. World space, linear radiance.
 // Compiled by C++ too: see shaders/README.md for what may be written here.
 
-const float kPi = 3.14159265358979f;
-
 /// A surface point after its textures were read.
 struct Surface {
   vec3 position;
@@ -57,10 +55,8 @@ CATOPTRIC_FN vec3 lightIrradiance(PunctualLight light, Surface s, vec3 toLight, 
   float strength = max(dot(s.normal, toLight), 0.0f);
   if (light.kind != 0) {
     float falloff = 1.0f / max(distanceToLight * distanceToLight, 1.0e-6f);
-    if (light.range > 0.0f) {
-      float q = distanceToLight / light.range;
-      falloff *= clamp(1.0f - q * q * q * q, 0.0f, 1.0f);
-    }
+    float q = choose(light.range > 0.0f, distanceToLight / light.range, 0.0f);
+    falloff *= clamp(1.0f - q * q * q * q, 0.0f, 1.0f);
     strength *= falloff;
   }
   if (light.kind == 2) {
@@ -79,7 +75,7 @@ CATOPTRIC_FN vec3 shadeLight(PunctualLight light, Surface s) {
   vec3 toLight = light.kind == 0 ? -light.direction : offset / distanceToLight;
   vec3 irradiance = lightIrradiance(light, s, toLight, distanceToLight);
   vec3 f0 = surfaceF0(s);
-  vec3 diffuseColor = s.baseColor * ((1.0f - s.metallic) * (s.eta > 0.0f ? 1.0f - s.transmission : 1.0f));
+  vec3 diffuseColor = s.baseColor * ((1.0f - s.metallic) * choose(s.eta > 0.0f, 1.0f - s.transmission, 1.0f));
   vec3 halfway = normalize(toLight + s.toViewer);
   float nl = max(dot(s.normal, toLight), 1.0e-4f);
   float nv = max(dot(s.normal, s.toViewer), 1.0e-4f);
@@ -87,12 +83,12 @@ CATOPTRIC_FN vec3 shadeLight(PunctualLight light, Surface s) {
   float alpha = max(s.roughness * s.roughness, 0.002f);
   float a2 = alpha * alpha;
   float d = nh * nh * (a2 - 1.0f) + 1.0f;
-  float distribution = a2 / (kPi * d * d);
+  float distribution = a2 / (3.14159265358979f * d * d);
   float visibility = 0.5f / (nl * sqrt(nv * nv * (1.0f - a2) + a2) + nv * sqrt(nl * nl * (1.0f - a2) + a2));
   vec3 fresnel = fresnelSchlick(f0, dot(s.toViewer, halfway));
-  float hasHighlight = (s.reflectivity > 0.0f && s.metallic > 0.5f) ? 0.0f : 1.0f;
+  float hasHighlight = choose(s.reflectivity > 0.0f && s.metallic > 0.5f, 0.0f, 1.0f);
   vec3 specular = fresnel * (distribution * visibility * hasHighlight);
-  return irradiance * ((vec3(1.0f) - fresnel) * diffuseColor / kPi + specular);
+  return irradiance * ((vec3(1.0f) - fresnel) * diffuseColor / 3.14159265358979f + specular);
 }
 
 /// Split-sum approximation of the integrated GGX lobe: scale and bias of F0 (Karis 2014, mobile fit).
@@ -113,9 +109,10 @@ CATOPTRIC_FN vec3 shadeAmbient(Surface s, vec3 irradiance, vec3 prefiltered) {
   float cosTheta = clamp(dot(s.normal, s.toViewer), 0.0f, 1.0f);
   vec2 scaleBias = environmentBrdf(s.roughness, cosTheta);
   vec3 specularWeight = f0 * scaleBias.x + vec3(scaleBias.y);
-  if (s.eta > 0.0f) specularWeight = fresnelSchlick(f0, cosTheta);  // what a refractor does not pass on
-  float isReflector = s.reflectivity > 0.0f ? 1.0f : 0.0f;
-  float opaque = s.eta > 0.0f ? 1.0f - s.transmission : 1.0f;
+  // What a refractor does not pass on.
+  if (anyLane(s.eta > 0.0f)) specularWeight = choose(s.eta > 0.0f, fresnelSchlick(f0, cosTheta), specularWeight);
+  float isReflector = choose(s.reflectivity > 0.0f, 1.0f, 0.0f);
+  float opaque = choose(s.eta > 0.0f, 1.0f - s.transmission, 1.0f);
   vec3 diffuse = (vec3(1.0f) - specularWeight) * (s.baseColor * ((1.0f - s.metallic) * opaque)) * irradiance;
   vec3 specular = specularWeight * prefiltered * (1.0f - isReflector);
   return (diffuse + specular) * s.occlusion;
@@ -125,11 +122,11 @@ CATOPTRIC_FN vec3 shadeAmbient(Surface s, vec3 irradiance, vec3 prefiltered) {
 /// the base shows through by the rest. From inside a refractor nothing but its own light is added: no lamp shines and no
 /// environment is mirrored in there.
 CATOPTRIC_FN vec3 shadeSurface(Surface s, vec3 direct, vec3 irradiance, vec3 prefiltered) {
-  if (s.eta > 1.0f) return s.emissive;
   vec3 base = direct + shadeAmbient(s, irradiance, prefiltered);
   vec3 coat = fresnelSchlick(vec3(0.04f), dot(s.coatNormal, s.toViewer)) * s.clearcoat;
   base = base * (vec3(1.0f) - coat);
   // A half-silvered metal shows its base colour, lit as if it were paint, by 1 - reflectivity.
-  float paint = s.reflectivity > 0.0f ? (1.0f - s.reflectivity) * s.metallic : 0.0f;
-  return s.emissive + base + s.baseColor * irradiance * (paint * s.occlusion);
+  float paint = choose(s.reflectivity > 0.0f, (1.0f - s.reflectivity) * s.metallic, 0.0f);
+  vec3 reflected = base + s.baseColor * irradiance * (paint * s.occlusion);
+  return s.emissive + choose(s.eta > 1.0f, vec3(0.0f), reflected);
 }

@@ -18,7 +18,7 @@ CATOPTRIC_FN RayHit meetTriangle(vec3 direction, float tNear, vec3 a, vec3 b, ve
   hit.across = dot(direction, n);
   hit.isFront = hit.across < 0.0f;
   float sum = sides.x + sides.y + sides.z;
-  vec3 inner = hit.isFront ? -sides : sides;
+  vec3 inner = sides * choose(hit.isFront, -1.0f, 1.0f);
   hit.t = dot(a, n) / hit.across;
   hit.weights = sides / sum;
   hit.isHit = hit.across != 0.0f && min(inner.x, min(inner.y, inner.z)) >= -1.0e-6f * abs(sum) && hit.t > tNear;

@@ -2,7 +2,7 @@
 // The environment's irradiance, from constants of raster/material.glsl. Needs lib/environment.glsl.
 
 /// The environment's irradiance / pi on a plane that faces a unit normal.
-vec3 lookUpIrradiance(vec3 n) {
+CATOPTRIC_FN vec3 lookUpIrradiance(vec3 n) {
 #ifdef FLAT_CONSTANTS
   vec4 a = v_irradiance[0], b = v_irradiance[1], c = v_irradiance[2], d = v_irradiance[3], e = v_irradiance[4],
        f = v_irradiance[5], g = v_irradiance[6];

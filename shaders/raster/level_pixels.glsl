@@ -11,22 +11,23 @@
 // For the sky `position` holds the unit direction and kSkyPath, ids.r is 0. Where no mirror is, weight and both halves of
 // the mirror direction say nothing, nor does position unless the level says what is seen.
 
+CATOPTRIC_FN vec2 octahedralFromDirection(vec3 d) {
+  vec2 p = vec2(d.x, d.y) / (abs(d.x) + abs(d.y) + abs(d.z));
+  vec2 signs = vec2(choose(p.x < 0.0f, -1.0f, 1.0f), choose(p.y < 0.0f, -1.0f, 1.0f));
+  return choose(d.z < 0.0f, vec2(1.0f - abs(p.y), 1.0f - abs(p.x)) * signs, p);
+}
+
+CATOPTRIC_FN vec3 directionFromOctahedral(vec2 p) {
+  float z = 1.0f - abs(p.x) - abs(p.y);
+  vec2 signs = vec2(choose(p.x < 0.0f, -1.0f, 1.0f), choose(p.y < 0.0f, -1.0f, 1.0f));
+  vec2 xy = choose(z < 0.0f, vec2(1.0f - abs(p.y), 1.0f - abs(p.x)) * signs, p);
+  return normalize(vec3(xy, z));
+}
+
+#ifndef CATOPTRIC_LANES
 const float kSkyPath = 1.0e30f;
 const uint kInsideBit = 0x40000000u;
 const uint kUnfollowedBit = 0x20000000u;  // ids.r alone: the environment, in a mirror that no method draws
-
-vec2 octahedralFromDirection(vec3 d) {
-  vec2 p = d.xy / (abs(d.x) + abs(d.y) + abs(d.z));
-  vec2 signs = vec2(p.x < 0.0f ? -1.0f : 1.0f, p.y < 0.0f ? -1.0f : 1.0f);
-  return d.z < 0.0f ? (vec2(1.0f) - abs(p.yx)) * signs : p;
-}
-
-vec3 directionFromOctahedral(vec2 p) {
-  vec3 d = vec3(p, 1.0f - abs(p.x) - abs(p.y));
-  vec2 signs = vec2(p.x < 0.0f ? -1.0f : 1.0f, p.y < 0.0f ? -1.0f : 1.0f);
-  if (d.z < 0.0f) d = vec3((vec2(1.0f) - abs(d.yx)) * signs, d.z);
-  return normalize(d);
-}
 
 uint reflectorOf(uvec2 ids) { return ids.y & 0xffffu; }  // + 1, 0 = none
 uint chainOf(uvec2 ids) { return ids.y >> 16u; }
@@ -46,3 +47,4 @@ vec3 readMirrorDirectionStep(sampler2D radiance, sampler2D weight, usampler2D id
   if (next != pixel && texelFetch(ids, next, 0).y == key) return here - readMirrorDirection(radiance, weight, next);
   return vec3(0.0f);
 }
+#endif

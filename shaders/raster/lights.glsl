@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the scene's lights bring to a surface. Needs lib/brdf.glsl and raster/material_block.glsl.
 
+#ifndef CATOPTRIC_LANES  // see raster/material.glsl
 #if defined(FLAT_CONSTANTS) && LIGHTS > 0  // see raster/hand_on_constants.glsl
 flat in vec4 v_lights[8];
 #endif
@@ -35,3 +36,4 @@ vec3 shadeLights(Surface s) {
 #endif
   return sum;
 }
+#endif

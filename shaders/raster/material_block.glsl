@@ -18,3 +18,5 @@ uniform vec4 u_lobes;     // of a reflector: reflectivity, clearcoat, index of r
 uniform vec4 u_lights[4 * LIGHTS];  // color + kind, position + range, direction + cosInner, cosOuter
 #endif
 uniform vec3 u_irradiance[9];  // of the environment: spherical harmonics of irradiance / pi
+uniform uint u_objectWord;     // (object + 1) | shell << 31
+uniform uint u_reflectorWord;  // (reflector + 1) | chain << 16

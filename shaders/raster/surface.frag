@@ -94,6 +94,8 @@ void main() {
   vec3 view = normalize(v_drawPosition - u_drawEye);  // flat mirrors turn it, but not how far it changes
   p.mirrorChange = vec2(boundMirrorChange(dFdx(view), v_normal, dFdx(v_normal)),
                         boundMirrorChange(dFdy(view), v_normal, dFdy(v_normal)));
+#else
+  p.mirrorChange = vec2(0.0f);
 #endif
   float path = length(v_drawPosition - u_drawEye);
   vec3 from;
@@ -114,7 +116,7 @@ void main() {
   o_radiance = vec4(shaded.radiance, oct.x);
   o_position = vec4(v_position, path);
   o_weight = vec4(shaded.weight, oct.y);
-  o_ids = uvec2(objectWordBehind(shaded, p.isFront, false), u_reflectorWord);
+  o_ids = uvec2(u_objectWord | (isInsideBehind(shaded, p.isFront, false) ? kInsideBit : 0u), u_reflectorWord);
 #else
   o_radiance = vec4(shaded.radiance, 0.0f);
   o_ids = uvec2(u_objectWord, u_reflectorWord);

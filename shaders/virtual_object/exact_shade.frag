@@ -68,6 +68,6 @@ void main() {
   o_radiance = vec4(shaded.radiance * left, oct.x);
   o_position = vec4(p.position, origin.w + hit.t);
   o_weight = vec4(shaded.weight * left, oct.y);
-  o_ids = uvec2(objectWordBehind(shaded, p.isFront, isInside), u_reflectorWord);
+  o_ids = uvec2(u_objectWord | (isInsideBehind(shaded, p.isFront, isInside) ? kInsideBit : 0u), u_reflectorWord);
 #endif
 }

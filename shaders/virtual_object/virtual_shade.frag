@@ -16,6 +16,7 @@
 #include "raster/surface_shading.glsl"
 #include "virtual_object/exact_ray.glsl"
 #include "virtual_object/exact_point.glsl"
+#include "virtual_object/near_hit.glsl"
 
 uniform usampler2D u_hits;
 uniform uint u_parentWord;  // ids.g that a pixel of the level before must have
@@ -24,20 +25,6 @@ uniform sampler2D u_parentRadiance;
 uniform sampler2D u_parentPosition;
 uniform sampler2D u_parentWeight;
 uniform sampler2D u_hitDepth;
-
-/// Beside the edge of a virtual triangle, straight where its image is curved, the ray may miss the triangle itself. A little
-/// off it is right to go on in its plane, which its neighbour often shares; far off, keep the distance at which it was drawn.
-RayHit keepNear(RayHit hit, float drawn) {
-  float outside = -min(hit.weights.x, min(hit.weights.y, hit.weights.z));
-  bool isNear = hit.t > 0.0f && (outside < 0.25f || abs(hit.t - drawn) < 0.1f * drawn);
-  if (isNear) return hit;
-  vec3 inner = clamp(hit.weights, vec3(0.0f), vec3(1.0f));
-  float sum = inner.x + inner.y + inner.z;
-  hit.weights = sum > 0.0f ? inner / sum : vec3(1.0f / 3.0f);
-  hit.t = drawn;
-  if (hit.across == 0.0f) hit.across = -1.0f;  // edge-on: nothing divides by zero
-  return hit;
-}
 
 layout(location = 0) out vec4 o_radiance;
 #ifdef MIRROR
@@ -97,7 +84,7 @@ void main() {
   o_radiance = vec4(shaded.radiance, oct.x);
   o_position = vec4(p.position, path + hit.t);
   o_weight = vec4(shaded.weight, oct.y);
-  o_ids = uvec2(objectWordBehind(shaded, p.isFront, false), u_reflectorWord);
+  o_ids = uvec2(u_objectWord | (isInsideBehind(shaded, p.isFront, false) ? kInsideBit : 0u), u_reflectorWord);
 #else
   o_radiance = vec4(shaded.radiance, 0.0f);
   o_ids = uvec2(u_objectWord, u_reflectorWord);

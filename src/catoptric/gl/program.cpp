@@ -54,7 +54,8 @@ unsigned compile(GLenum stage, std::string_view name, const std::vector<std::str
 
 std::string assembleShader(std::string_view name, const std::vector<std::string>& defines) {
   std::string source =
-      "#version 330 core\n#define Real float\n#define Real2 vec2\n#define Real3 vec3\n#define CATOPTRIC_FN\n";
+      "#version 330 core\n#define Real float\n#define Real2 vec2\n#define Real3 vec3\n"
+      "#define choose(c, a, b) ((c) ? (a) : (b))\n#define anyLane(c) (c)\n#define CATOPTRIC_FN\n";
   for (const std::string& define : defines) source += "#define " + define + "\n";
   appendFile(source, name, 0);
   return source;

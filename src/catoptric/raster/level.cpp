@@ -135,7 +135,7 @@ void ComposePass::findSeen(const Level& level, const Level* next) {
 
 void ComposePass::draw(const Level& level, const Level* next) {
   nothing_.bind();
-  if (next) addMirrored(level, *next);
+  if (next && next->isDrawn) addMirrored(level, *next);
   if (level.hasOverlay) {
     level.composed.bind();
     gl::setScissor(level.drawnBounds);

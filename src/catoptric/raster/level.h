@@ -49,6 +49,7 @@ struct Level {
   /// asks for its ids.
   bool withIds = true;
   bool isLast = true;  ///< no level comes after it: its mirrors show the environment, and are shaded with it
+  bool isDrawn = true;     ///< false: nothing of it is to be composed
   gl::Scissor drawnBounds;              ///< pixels that may show something
   std::vector<gl::Scissor> drawnRects;  ///< the same of a mirror's level, closer; empty: not known
   bool hasOverlay = false;

@@ -50,6 +50,11 @@ struct FrameContext {
   Masking masking{};
   /// Ids of the level that render() gets as `parent`, bottom row first.
   std::span<const uvec2> parentIds{};
+  /// The level that render() gets as `parent`, where a method may add what mirrors show to its radiance at
+  /// once, instead of drawing it into `target`: in the last level, when it need not say what is seen. Else
+  /// null.
+  Level* addsTo = nullptr;
+  bool hasAdded = false;  ///< set by a method that did so
 };
 
 class ReflectionMethod {

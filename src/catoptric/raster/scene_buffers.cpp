@@ -9,18 +9,11 @@
 
 #include "catoptric/core/error.h"
 #include "catoptric/core/log.h"
+#include "catoptric/gl/context.h"
 #include "catoptric/scene/texture_mips.h"
 
 namespace catoptric::raster {
 namespace {
-
-constexpr int kMaxLights = 16;
-
-/// std140 image of the block in shaders/raster/material.glsl.
-struct MaterialBlock {
-  vec4 baseColor, emissive, factors, more;
-  vec4 uvRows[10];
-};
 
 MaterialBlock makeBlock(const scene::Material& m, const std::array<const gl::Texture*, 5>& textures) {
   MaterialBlock block{};
@@ -59,7 +52,11 @@ core::Box computePartBox(const scene::WorldGeometry& world, std::uint32_t index)
 
 SceneBuffers::SceneBuffers(const scene::Scene& scene, const scene::WorldGeometry& geometry,
                            const scene::Environment& environment)
-    : scene_(scene), geometry_(geometry), world_(geometry), materialBlocks_(gl::BufferKind::Uniform) {
+    : scene_(scene),
+      geometry_(geometry),
+      environment_(environment),
+      world_(geometry),
+      materialBlocks_(gl::BufferKind::Uniform) {
   uploadTextures();
   updateMaterials();
   uploadEnvironment(environment);
@@ -117,6 +114,8 @@ const gl::Texture* SceneBuffers::findTexture(const scene::TextureSlot& slot, boo
       source.image.height(), 1, int(mips.size()), sampler);
   for (std::size_t level = 0; level < mips.size(); ++level)
     texture->upload(int(level), 0, mips[level].data());
+  if (gl::isSoftwareContext())
+    laneTextures_.try_emplace({slot.texture, srgb}, source, mips, srgb);
   return texture.get();
 }
 
@@ -177,7 +176,7 @@ int SceneBuffers::lightCount() const {
   return int(std::min(scene_.lights.size(), std::size_t(kMaxLights)));
 }
 
-void SceneBuffers::bindLights(gl::Program& program) const {
+std::vector<vec4> SceneBuffers::packLights() const {
   std::vector<vec4> packed;
   for (int i = 0; i < lightCount(); ++i) {
     const scene::Light& light = scene_.lights[std::size_t(i)];
@@ -189,7 +188,30 @@ void SceneBuffers::bindLights(gl::Program& program) const {
     packed.emplace_back(light.direction, std::cos(light.innerConeRadians));
     packed.emplace_back(std::cos(light.outerConeRadians), 0.0f, 0.0f, 0.0f);
   }
-  program.set("u_lights[0]", packed);
+  return packed;
+}
+
+void SceneBuffers::bindLights(gl::Program& program) const {
+  program.set("u_lights[0]", packLights());
+}
+
+MaterialBlock SceneBuffers::materialBlock(int material) const {
+  const std::size_t index = material < 0 ? materials_.size() - 1 : std::size_t(material);
+  return makeBlock(materials_[index], slots_[index]);
+}
+
+std::array<const LaneTexture*, 5> SceneBuffers::laneTextures(int index) const {
+  const scene::Material& m = material(index);
+  const std::pair<int, bool> keys[5] = {{m.baseColorTexture.texture, true},
+                                        {m.metallicRoughnessTexture.texture, false},
+                                        {m.normalTexture.texture, false},
+                                        {m.occlusionTexture.texture, false},
+                                        {m.emissiveTexture.texture, true}};
+  std::array<const LaneTexture*, 5> textures{};
+  for (std::size_t k = 0; k < 5; ++k)
+    if (const auto found = laneTextures_.find(keys[k]); found != laneTextures_.end())
+      textures[k] = &found->second;
+  return textures;
 }
 
 unsigned SceneBuffers::textureBits(int material) const {

@@ -9,6 +9,7 @@
 
 #include "catoptric/gl/program.h"
 #include "catoptric/gl/texture.h"
+#include "catoptric/raster/lane_textures.h"
 #include "catoptric/raster/levels_of_detail.h"
 #include "catoptric/raster/vertex_streams.h"
 #include "catoptric/scene/environment.h"
@@ -27,6 +28,14 @@ enum Unit : int {
   kUnitEnvironment,
   kUnitPrefiltered,
   kUnitFirstFree,  ///< level images and what else a pass reads
+};
+
+inline constexpr int kMaxLights = 16;  ///< what is beyond is left out, with a warning
+
+/// std140 image of the block in shaders/raster/material_block.glsl.
+struct MaterialBlock {
+  vec4 baseColor, emissive, factors, more;
+  vec4 uvRows[10];
 };
 
 class SceneBuffers {
@@ -49,6 +58,14 @@ class SceneBuffers {
   /// Bit k: the material has its k-th texture (order of Unit).
   [[nodiscard]] unsigned textureBits(int material) const;
 
+  // The same for shading by the processor; textures are there where GL is software.
+  [[nodiscard]] MaterialBlock materialBlock(int material) const;
+  /// Null: the material has none, or textures are not there.
+  [[nodiscard]] std::array<const LaneTexture*, 5> laneTextures(int material) const;
+  /// Rows of u_lights (shaders/raster/material_block.glsl), four a light.
+  [[nodiscard]] std::vector<vec4> packLights() const;
+  [[nodiscard]] const scene::Environment& environment() const { return environment_; }
+
   [[nodiscard]] const scene::Material& material(int index) const;
   [[nodiscard]] const scene::WorldGeometry& geometry() const { return geometry_; }
   [[nodiscard]] const VertexStreams& world() const { return world_; }
@@ -70,12 +87,14 @@ class SceneBuffers {
 
   const scene::Scene& scene_;
   const scene::WorldGeometry& geometry_;
+  const scene::Environment& environment_;
   VertexStreams world_;
   gl::Buffer materialBlocks_;
   std::size_t blockStride_ = 0;
   std::vector<scene::Material> materials_;                ///< the scene's, then the default one
   std::vector<std::array<const gl::Texture*, 5>> slots_;  ///< per material, null = none
   std::map<std::pair<int, bool>, std::unique_ptr<gl::Texture>> textures_;
+  std::map<std::pair<int, bool>, LaneTexture> laneTextures_;
   std::unique_ptr<gl::Texture> white_, radiance_, prefiltered_;
   std::vector<vec3> irradiance_;
   std::vector<DrawRange> opaque_, blended_;

@@ -24,20 +24,28 @@ void bindSurfaceShading(gl::Program& program, const SceneBuffers& scene) {
   for (int unit = 0; unit < 5; ++unit) program.set(samplers[unit], unit);
 }
 
-void bindPart(gl::Program& program, const SceneBuffers& scene, std::uint32_t index, const Chain* chain) {
+PartConstants findPartConstants(const SceneBuffers& scene, std::uint32_t index, const Chain* chain) {
   const scene::WorldGeometry& world = scene.geometry();
   const scene::Part& part = world.parts[index];
   const bool isReflector = part.reflector != core::kNoId;
-  program.set("u_objectWord", (part.object + 1u) | (part.shell ? 0x80000000u : 0u));
-  program.set("u_reflectorWord", (isReflector ? part.reflector + 1u : 0u) | (chain ? chain->id << 16 : 0u));
+  PartConstants constants;
+  constants.objectWord = (part.object + 1u) | (part.shell ? 0x80000000u : 0u);
+  constants.reflectorWord = (isReflector ? part.reflector + 1u : 0u) | (chain ? chain->id << 16 : 0u);
   const float transmission = scene.material(part.material).transmission;
-  vec4 lobes(0, 0, 0, transmission);
+  constants.lobes = vec4(0, 0, 0, transmission);
   if (isReflector) {
     const scene::Reflector& reflector = world.reflectors[part.reflector];
-    lobes = vec4(reflector.reflectivity, reflector.clearcoat, reflector.ior, transmission);
+    constants.lobes = vec4(reflector.reflectivity, reflector.clearcoat, reflector.ior, transmission);
   }
-  program.set("u_lobes", lobes);
-  scene.bindMaterial(part.material);
+  return constants;
+}
+
+void bindPart(gl::Program& program, const SceneBuffers& scene, std::uint32_t index, const Chain* chain) {
+  const PartConstants constants = findPartConstants(scene, index, chain);
+  program.set("u_objectWord", constants.objectWord);
+  program.set("u_reflectorWord", constants.reflectorWord);
+  program.set("u_lobes", constants.lobes);
+  scene.bindMaterial(scene.geometry().parts[index].material);
 }
 
 namespace {

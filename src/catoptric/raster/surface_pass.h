@@ -87,6 +87,14 @@ class SurfacePass {
   std::vector<DrawRange> mirrors_, others_;
 };
 
+/// Uniforms of a part: shaders/raster/material_block.glsl.
+struct PartConstants {
+  std::uint32_t objectWord = 0, reflectorWord = 0;
+  vec4 lobes{0};
+};
+/// `chain`: in which it is seen, null: directly.
+[[nodiscard]] PartConstants findPartConstants(const SceneBuffers& scene, std::uint32_t index,
+                                              const Chain* chain);
 /// For programs that shade surfaces of the scene: how many lights there are, and how constants get to the
 /// fragments (raster/hand_on_constants.glsl).
 void addConstantsDefines(const SceneBuffers& scene, std::vector<std::string>& defines);

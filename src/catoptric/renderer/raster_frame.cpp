@@ -209,15 +209,20 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
     target.withSeen = options.withSeen || options.drawsSeen;
     target.composesSeen = options.withSeen;
     target.isLast = level + 1 == mostLevels;
-    target.withIds = !target.isLast || options.merge != Merge::Ids;
+    const bool isAdded = target.isLast && !target.withSeen && options.merge == Merge::Ids && shadesHere(options);
+    target.withIds = !target.isLast || options.merge != Merge::Ids || isAdded;
+    target.isDrawn = !mirrors.unfollowed.empty();
+    context.addsTo = isAdded ? levels_[std::size_t(level)].get() : nullptr;
     target.clear(findUnion(mirrors));
     target.drawnRects = std::move(mirrors.rects);
     for (const raster::Chain& chain : mirrors.chains) {
       raster::ReflectionMethod* method = pickMethod(context, chain, options);
+      context.hasAdded = false;
       if (method)
         renderMirror(*method, context, chain, parent, target);
       else
         unfollowed_.draw(scene_, chain, parent, target, false);
+      target.isDrawn = target.isDrawn || !context.hasAdded;
       if (level == 0 && method) lastMethods_[chain.last] = method;
     }
     for (const raster::Chain& chain : mirrors.unfollowed)
@@ -254,6 +259,11 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   frame.counters.zexelCaptures += counters.zexelCaptures;
   frame.counters.reflectorsDrawn = visibleReflectors;
   frame.counters.reflectorsCulled = geometry_.reflectors.size() - visibleReflectors;
+}
+
+/// Does the processor shade in some mirrors?
+bool RasterFrame::shadesHere(const FrameOptions& options) const {
+  return !numbersByGl_ && (options.method == Method::Auto || options.method == Method::Virtual);
 }
 
 bool RasterFrame::findsVerticesOnGpu(const FrameOptions& options) const {

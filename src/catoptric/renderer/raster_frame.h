@@ -61,6 +61,7 @@ class RasterFrame {
   [[nodiscard]] const MethodChoice& askForChoice(const raster::FrameContext& context, std::uint32_t reflector,
                                                  const FrameOptions& options);
   /// Whether vertex shaders find virtual vertices; throws where they are asked for and cannot.
+  [[nodiscard]] bool shadesHere(const FrameOptions& options) const;
   [[nodiscard]] bool findsVerticesOnGpu(const FrameOptions& options) const;
   /// Opens the baked file, or makes ready to bake where the eye is.
   void prepareMorphing(const dvec3& eye, const FrameOptions& options);

@@ -13,9 +13,13 @@ using namespace glm;  // NOLINT: the included files are GLSL
 using std::acos;
 
 #define CATOPTRIC_FN inline
+#define choose(c, a, b) ((c) ? (a) : (b))
+#define anyLane(c) (c)
 #include "lib/environment.glsl"
 #include "lib/refraction.glsl"
 #include "lib/texture_lod.glsl"
 #undef CATOPTRIC_FN
+#undef choose
+#undef anyLane
 
 }  // namespace catoptric::scene::glsl

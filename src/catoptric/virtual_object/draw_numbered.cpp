@@ -42,14 +42,13 @@ void VirtualObjectMethod::drawNumbersHere(raster::FrameContext& frame, const ras
                                           const raster::SurfaceView& view, const Prepared& p,
                                           bool withDepths) {
   const raster::Level& parent = *view.parent;
-  mirrorPositions_.resize(std::size_t(chain.bounds.width) * std::size_t(chain.bounds.height));
-  parent.surfaces.readPixels(1, chain.bounds, std::span<vec4>(mirrorPositions_));
+  shading_.inLanes().readParent(parent, chain.bounds);
   const NumberPicture picture{.clipFromDraw = mat4(view.clipFromDraw),
                               .drawEye = view.drawEye,
                               .widthPx = parent.widthPx,
                               .heightPx = parent.heightPx,
                               .bounds = chain.bounds,
-                              .mirror = mirrorPositions_,
+                              .mirror = shading_.inLanes().positions(),
                               .parentIds = frame.parentIds,
                               .parentWord = chain.parentWord(),
                               .screen = screen_,
@@ -73,6 +72,10 @@ bool VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, const raster
     drawNumbersByGl(frame, chain, view, p);
   else
     drawNumbersHere(frame, chain, view, p, withDepths);
+  if (!numbersByGl_ && !withDepths) {
+    shading_.inLanes().shade(frame, chain, shading_.triangles(), numbers_.hits, target);
+    return true;
+  }
   findPartRects(frame.scene.levels().triangleParts(), chain.bounds, numbers_.hits, frame.parentIds,
                 view.parent->widthPx, chain.parentWord(), rects_);
   if (!numbersByGl_) shading_.uploadHits(chain.bounds, numbers_.hits, numbers_.depths);

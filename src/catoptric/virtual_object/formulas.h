@@ -15,9 +15,13 @@ using Real2 = dvec2;
 using Real3 = dvec3;
 
 #define CATOPTRIC_FN inline
+#define choose(c, a, b) ((c) ? (a) : (b))
+#define anyLane(c) (c)
 #include "lib/mirror_law.glsl"
 #include "lib/ray_triangle.glsl"
 #include "lib/virtual_vertex.glsl"
 #undef CATOPTRIC_FN
+#undef choose
+#undef anyLane
 
 }  // namespace catoptric::virtual_object::formulas

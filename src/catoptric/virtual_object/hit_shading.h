@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "catoptric/raster/reflection_method.h"
+#include "catoptric/virtual_object/lane_shading.h"
 #include "catoptric/virtual_object/scene_triangles.h"
 
 namespace catoptric::virtual_object {
@@ -80,6 +81,9 @@ class HitShading {
   void shadeVirtual(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
                     const raster::Level& target, bool isEdge, std::span<const CoverRect> rects,
                     bool withDepths = true);
+  /// The same by the processor.
+  [[nodiscard]] LaneShading& inLanes() { return inLanes_; }
+  [[nodiscard]] const SceneTriangles& triangles() const { return *triangles_; }
   /// All rectangles with the program in use; item: triangle.
   void drawRects(std::span<const CoverRect> rects);
 
@@ -120,6 +124,7 @@ class HitShading {
   std::unique_ptr<SceneTriangles> triangles_;
   std::unique_ptr<Targets> targets_;
   float depthFromDistance_ = 1;
+  LaneShading inLanes_;
 };
 
 }  // namespace catoptric::virtual_object

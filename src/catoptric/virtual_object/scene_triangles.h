@@ -36,6 +36,10 @@ class SceneTriangles {
   [[nodiscard]] const gl::Texture& triangles() const { return *triangles_; }
   [[nodiscard]] const gl::Texture& vertices() const { return *vertices_; }
 
+  /// What the textures hold.
+  [[nodiscard]] std::span<const uvec4> triangleTexels() const { return triangleTexels_; }
+  [[nodiscard]] std::span<const vec4> vertexTexels() const { return vertexTexels_; }
+
   /// The levels that are among them, null if none are.
   [[nodiscard]] const raster::LevelsOfDetail* levels() const { return levels_; }
   /// Bits of VertexAttribute.
