@@ -18,7 +18,8 @@ CATOPTRIC_FN vec3 lookUpEnvironment(vec3 direction, vec3 dx, vec3 dy) {
   return fine;
 }
 
-CATOPTRIC_FN vec3 lookUpPrefiltered(vec3 direction, float roughness) {
+#ifndef CATOPTRIC_LANES
+vec3 lookUpPrefiltered(vec3 direction, float roughness) {
   vec2 uv = latLongFromDirection(direction);
   float layer = clamp(roughness, 0.0f, 1.0f) * u_prefilteredLast;
   float lower = floor(layer);
@@ -26,3 +27,4 @@ CATOPTRIC_FN vec3 lookUpPrefiltered(vec3 direction, float roughness) {
   vec3 coarse = vec3(textureLod(u_prefiltered, vec3(uv, min(lower + 1.0f, u_prefilteredLast)), 0.0f));
   return mix(fine, coarse, layer - lower);
 }
+#endif

@@ -9,6 +9,7 @@
 
 #include "catoptric/core/image.h"
 #include "catoptric/core/lane_vectors.h"
+#include "catoptric/scene/environment.h"
 #include "catoptric/scene/material.h"
 
 namespace catoptric::raster {
@@ -107,56 +108,96 @@ class LaneTexture {
   bool magnifyNearest_, minifyNearest_, isSrgb_;
 };
 
-/// Latitude-longitude images of linear radiance: levels, or layers. u wraps around, v is clamped.
+/// A latitude-longitude image of linear radiance. u wraps around, v is clamped.
+struct LaneLatLong {
+  const float* texels = nullptr;
+  int width = 0, height = 0;
+};
+
+/// Eight texels, each from an image of its own and blended of four; uv.x from 0 to 1. `kFloats`: in a texel,
+/// the first three count.
+template <int kFloats>
+CATOPTRIC_INLINE lanes::Vec3 sampleLatLong(const LaneLatLong* const (&images)[core::kLanes],
+                                           const lanes::Vec2& uv) {
+  using namespace lanes;
+  using core::EightInts;
+  using Four = float __attribute__((vector_size(16)));
+  EightInts width, height;
+  for (int i = 0; i < core::kLanes; ++i) width[i] = images[i]->width, height[i] = images[i]->height;
+  const Float x = uv.x * fromInts(width) - 0.5f, y = uv.y * fromInts(height) - 0.5f;
+  const Float left = floor(x), top = floor(y), right = x - left, below = y - top;
+  EightInts x0 = toInts(left), x1 = x0 + 1;
+  x0 = keepWithin(x0 < 0 ? width - 1 : x0, width);
+  x1 = keepWithin(x1 >= width ? EightInts{} : x1, width);
+  const EightInts y0 = keepWithin(toInts(top), height), y1 = keepWithin(toInts(top) + 1, height);
+  const EightInts at[4] = {kFloats * (y0 * width + x0), kFloats * (y0 * width + x1),
+                           kFloats * (y1 * width + x0), kFloats * (y1 * width + x1)};
+  const Float share[4] = {(1.0f - right) * (1.0f - below), right * (1.0f - below), (1.0f - right) * below,
+                          right * below};
+  vec4 blended[core::kLanes];
+  const vec4* rows[core::kLanes];
+  for (int i = 0; i < core::kLanes; ++i) {
+    Four sum{};
+    for (int k = 0; k < 4; ++k) {
+      const float* t = images[i]->texels + at[k][i];
+      Four texel{t[0], t[1], t[2], 0.0f};
+      if constexpr (kFloats == 4) std::memcpy(&texel, t, sizeof texel);
+      sum += texel * share[k].v[i];
+    }
+    std::memcpy(&blended[i], &sum, sizeof sum);
+    rows[i] = &blended[i];
+  }
+  return Vec3(loadRows(rows));
+}
+
+/// The environment where the processor shades.
 class LaneEnvironment {
  public:
-  /// `images` must outlive the object.
-  explicit LaneEnvironment(const std::vector<core::ImageRgbF>& images);
+  /// `environment` must outlive the object.
+  explicit LaneEnvironment(const scene::Environment& environment);
 
-  [[nodiscard]] ivec2 size() const { return {images_[0].width, images_[0].height}; }
-  [[nodiscard]] float last() const { return float(images_.size() - 1); }
+  [[nodiscard]] ivec2 size() const { return {levels_[0].width, levels_[0].height}; }
+  [[nodiscard]] float lastLevel() const { return float(levels_.size() - 1); }
+  [[nodiscard]] float lastLayer() const { return float(layers_.size() - 1); }
 
-  /// Of image `number`, or the last one; uv.x from 0 to 1.
-  CATOPTRIC_INLINE lanes::Vec3 sample(const lanes::Vec2& uv, lanes::Float number) const {
-    using namespace lanes;
-    using Four = float __attribute__((vector_size(16)));
-    const core::EightInts which = keepWithin(toInts(number), core::EightInts{} + int(images_.size()));
-    core::EightInts width, height;
-    for (int i = 0; i < core::kLanes; ++i) {
-      width[i] = images_[std::size_t(which[i])].width;
-      height[i] = images_[std::size_t(which[i])].height;
-    }
-    const Float x = uv.x * fromInts(width) - 0.5f, y = uv.y * fromInts(height) - 0.5f;
-    const Float left = floor(x), top = floor(y), right = x - left, below = y - top;
-    core::EightInts x0 = toInts(left), x1 = x0 + 1;
-    x0 = keepWithin(x0 < 0 ? width - 1 : x0, width);
-    x1 = keepWithin(x1 >= width ? core::EightInts{} : x1, width);
-    const core::EightInts y0 = keepWithin(toInts(top), height), y1 = keepWithin(toInts(top) + 1, height);
-    const core::EightInts at[4] = {3 * (y0 * width + x0), 3 * (y0 * width + x1), 3 * (y1 * width + x0),
-                                   3 * (y1 * width + x1)};
-    const Float share[4] = {(1.0f - right) * (1.0f - below), right * (1.0f - below), (1.0f - right) * below,
-                            right * below};
-    vec4 blended[core::kLanes];
-    const vec4* rows[core::kLanes];
-    for (int i = 0; i < core::kLanes; ++i) {
-      const float* texels = images_[std::size_t(which[i])].texels;
-      Four sum{};
-      for (int k = 0; k < 4; ++k) {
-        const float* t = texels + at[k][i];
-        sum += Four{t[0], t[1], t[2], 0.0f} * share[k].v[i];
-      }
-      std::memcpy(&blended[i], &sum, sizeof sum);
-      rows[i] = &blended[i];
-    }
-    return Vec3(loadRows(rows));
+  /// Blends the two layers nearest to a roughness, 0 to 1, for findBlurred(); once.
+  void addBlurred(float roughness);
+  /// Null: it was not added, or there are too many.
+  [[nodiscard]] const LaneLatLong* findBlurred(float roughness) const;
+
+  /// GLSL's textureLod() at a whole level; beyond the last one, which lanes may ask for, that one.
+  CATOPTRIC_INLINE lanes::Vec3 sampleLevel(const lanes::Vec2& uv, lanes::Float level) const {
+    return sampleLatLong<3>(pick(levels_, level).images, uv);
+  }
+  /// The same with a layer of those blurred by roughness.
+  CATOPTRIC_INLINE lanes::Vec3 sampleLayer(const lanes::Vec2& uv, lanes::Float layer) const {
+    return sampleLatLong<4>(pick(layers_, layer).images, uv);
+  }
+  CATOPTRIC_INLINE static lanes::Vec3 sampleBlurred(const LaneLatLong& image, const lanes::Vec2& uv) {
+    Picked all;
+    for (const LaneLatLong*& one : all.images) one = &image;
+    return sampleLatLong<4>(all.images, uv);
   }
 
  private:
-  struct Picture {
-    const float* texels;
-    int width, height;
+  struct Picked {
+    const LaneLatLong* images[core::kLanes];
   };
-  std::vector<Picture> images_;
+  CATOPTRIC_INLINE static Picked pick(const std::vector<LaneLatLong>& images, lanes::Float number) {
+    const core::EightInts which = keepWithin(lanes::toInts(number), core::EightInts{} + int(images.size()));
+    Picked picked;
+    for (int i = 0; i < core::kLanes; ++i) picked.images[i] = &images[std::size_t(which[i])];
+    return picked;
+  }
+
+  struct Blurred {
+    float roughness;
+    std::vector<vec4> texels;
+    LaneLatLong image;
+  };
+  std::vector<LaneLatLong> levels_, layers_;
+  std::vector<std::vector<vec4>> layerTexels_;
+  std::vector<Blurred> blurred_;
 };
 
 }  // namespace catoptric::raster

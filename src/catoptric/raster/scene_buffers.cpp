@@ -200,6 +200,13 @@ MaterialBlock SceneBuffers::materialBlock(int material) const {
   return makeBlock(materials_[index], slots_[index]);
 }
 
+const LaneEnvironment& SceneBuffers::laneEnvironment() const {
+  if (!laneEnvironment_) laneEnvironment_ = std::make_unique<LaneEnvironment>(environment_);
+  for (std::size_t i = 0; i < materials_.size(); ++i)
+    if (slots_[i][kUnitMetallicRoughness] == nullptr) laneEnvironment_->addBlurred(materials_[i].roughness);
+  return *laneEnvironment_;
+}
+
 std::array<const LaneTexture*, 5> SceneBuffers::laneTextures(int index) const {
   const scene::Material& m = material(index);
   const std::pair<int, bool> keys[5] = {{m.baseColorTexture.texture, true},

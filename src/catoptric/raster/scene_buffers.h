@@ -65,6 +65,8 @@ class SceneBuffers {
   /// Rows of u_lights (shaders/raster/material_block.glsl), four a light.
   [[nodiscard]] std::vector<vec4> packLights() const;
   [[nodiscard]] const scene::Environment& environment() const { return environment_; }
+  /// With what materials ask for; made when first asked for.
+  [[nodiscard]] const LaneEnvironment& laneEnvironment() const;
 
   [[nodiscard]] const scene::Material& material(int index) const;
   [[nodiscard]] const scene::WorldGeometry& geometry() const { return geometry_; }
@@ -100,6 +102,7 @@ class SceneBuffers {
   std::vector<DrawRange> opaque_, blended_;
   std::vector<core::Box> boxes_;  ///< by part
   mutable std::unique_ptr<LevelsOfDetail> levels_;
+  mutable std::unique_ptr<LaneEnvironment> laneEnvironment_;
 };
 
 }  // namespace catoptric::raster

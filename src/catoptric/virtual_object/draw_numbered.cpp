@@ -7,6 +7,7 @@
 //   4. masked and blended parts, as surfaces.
 // Only the last step needs depths. Without it the environment comes before step 3, which then tests none.
 #include <algorithm>
+#include <future>
 
 #include "catoptric/virtual_object/virtual_object_method.h"
 
@@ -42,7 +43,6 @@ void VirtualObjectMethod::drawNumbersHere(raster::FrameContext& frame, const ras
                                           const raster::SurfaceView& view, const Prepared& p,
                                           bool withDepths) {
   const raster::Level& parent = *view.parent;
-  shading_.inLanes().readParent(parent, chain.bounds);
   const NumberPicture picture{.clipFromDraw = mat4(view.clipFromDraw),
                               .drawEye = view.drawEye,
                               .widthPx = parent.widthPx,
@@ -62,8 +62,12 @@ void VirtualObjectMethod::drawNumbersHere(raster::FrameContext& frame, const ras
 
 bool VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, const raster::Chain& chain,
                                        const raster::SurfaceView& view, Prepared& p, raster::Level& target) {
-  markTriangles(frame, chain, view, p);
   shading_.prepare(frame.scene, *view.parent);
+  // Reading keeps one core busy.
+  auto marks = std::async(numbersByGl_ ? std::launch::deferred : std::launch::async,
+                          [&] { markTriangles(frame, chain, view, p); });
+  if (!numbersByGl_) shading_.inLanes().readParent(*view.parent, chain.bounds);
+  marks.get();
   const bool hasSurfaces =
       std::any_of(p.objects.parts.begin(), p.objects.parts.end(),
                   [&](const raster::TessellatedPart& part) { return p.isDrawn[part.part] != 0; });

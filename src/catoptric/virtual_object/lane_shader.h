@@ -20,21 +20,14 @@ struct LaneShader {
   struct uvec4 {
     core::EightInts x, y, z, w;
   };
-  struct EnvironmentLevels {
-    const raster::LaneEnvironment* images;
-  };
-  struct EnvironmentLayers {
-    const raster::LaneEnvironment* images;
-  };
-
   vec4 m_baseColor, m_emissive, m_factors;
   catoptric::vec4 m_more, u_lobes;
   std::array<catoptric::vec4, 10> m_uvRows;
   vec3 u_irradiance[9];
   sampler2D u_baseColor, u_metallicRoughness, u_normalMap, u_occlusion, u_emissive;
-  EnvironmentLevels u_environment;
-  EnvironmentLayers u_prefiltered;
-  float u_environmentMaxLod, u_prefilteredLast;
+  const raster::LaneEnvironment* u_environment;
+  const raster::LaneLatLong* blurred;  ///< for the material's roughness; null: textures say what that is
+  float u_environmentMaxLod;
   uint u_objectWord, u_reflectorWord;
   const catoptric::vec4* u_vertices;
 
@@ -48,15 +41,13 @@ struct LaneShader {
   CATOPTRIC_INLINE vec4 uvRow(int i) const { return m_uvRows[std::size_t(i)]; }
 
   CATOPTRIC_INLINE static ivec2 textureSize(sampler2D map, int) { return map->size(); }
-  CATOPTRIC_INLINE static ivec2 textureSize(EnvironmentLevels map, int) { return map.images->size(); }
+  CATOPTRIC_INLINE static ivec2 textureSize(const raster::LaneEnvironment* map, int) { return map->size(); }
   CATOPTRIC_INLINE static vec4 textureLod(sampler2D map, const vec2& uv, core::lanes::Float level) {
     return map->sample(uv, level);
   }
-  CATOPTRIC_INLINE static vec3 textureLod(EnvironmentLevels map, const vec2& uv, core::lanes::Float level) {
-    return map.images->sample(uv, level);
-  }
-  CATOPTRIC_INLINE static vec3 textureLod(EnvironmentLayers map, const vec3& uvLayer, core::lanes::Float) {
-    return map.images->sample(vec2(uvLayer.x, uvLayer.y), uvLayer.z);
+  CATOPTRIC_INLINE static vec3 textureLod(const raster::LaneEnvironment* map, const vec2& uv,
+                                          core::lanes::Float level) {
+    return map->sampleLevel(uv, level);
   }
   CATOPTRIC_INLINE vec4 readVertex(const core::EightInts& vertex, int texel) const {
     const catoptric::vec4* rows[core::kLanes];
@@ -87,6 +78,15 @@ struct LaneShader {
 
   std::array<PunctualLight, raster::kMaxLights> lights;
   int lightCount = 0;
+
+  CATOPTRIC_INLINE vec3 lookUpPrefiltered(const vec3& direction, core::lanes::Float roughness) {
+    const vec2 uv = latLongFromDirection(direction);
+    if (blurred) return raster::LaneEnvironment::sampleBlurred(*blurred, uv);
+    const core::lanes::Float last = u_environment->lastLayer();
+    const core::lanes::Float layer = clamp(roughness, 0.0f, 1.0f) * last, lower = floor(layer);
+    return mix(u_environment->sampleLayer(uv, lower), u_environment->sampleLayer(uv, lower + 1.0f),
+               layer - lower);
+  }
 
   CATOPTRIC_INLINE vec3 shadeLights(const Surface& s) {
     vec3 sum(0.0f);

@@ -18,10 +18,8 @@ constexpr std::uint32_t kInsideBit = 0x40000000u;  // shaders/raster/level_pixel
 constexpr float kSkyPath = 1.0e30f;
 
 void setUniforms(const LaneShading::Job& job, LaneShader& s) {
-  s.u_environment = {&job.environment};
-  s.u_prefiltered = {&job.prefiltered};
-  s.u_environmentMaxLod = job.environment.last();
-  s.u_prefilteredLast = job.prefiltered.last();
+  s.u_environment = &job.environment;
+  s.u_environmentMaxLod = job.environment.lastLevel();
   for (std::size_t i = 0; i < 9; ++i) s.u_irradiance[i] = job.frame.scene.environment().irradiance[i];
   s.u_vertices = job.triangles.vertexTexels().data();
   for (std::size_t i = 0; i + 3 < job.lights.size(); i += 4) {
@@ -45,6 +43,7 @@ void setPart(const LaneShading::Job& job, std::uint32_t index, LaneShader& s) {
   s.u_baseColor = maps[0], s.u_metallicRoughness = maps[1], s.u_normalMap = maps[2];
   s.u_occlusion = maps[3], s.u_emissive = maps[4];
   s.textures = scene.textureBits(part.material);
+  s.blurred = maps[1] ? nullptr : job.environment.findBlurred(block.factors.x);
   const unsigned attributes = job.triangles.attributes(index);
   s.isColored = (attributes & kWithColors) != 0;
   s.isTwiceMapped = (attributes & kWithSecondUv) != 0;
@@ -76,8 +75,9 @@ struct ShadeBand {
     p.count = int(std::min<std::size_t>(count, kLanes));
     const std::uint32_t word = job.chain.parentWord();
     for (int i = 0; i < kLanes; ++i) {
-      const std::uint32_t at = list[std::min(i, p.count - 1)];
-      const int y = int(at / std::uint32_t(width)), x = int(at - std::uint32_t(y) * std::uint32_t(width));
+      const std::uint32_t pixel = list[std::min(i, p.count - 1)];
+      const int x = int(pixel & 0xffffu), y = int(pixel >> 16u);
+      const auto at = std::uint32_t(y * width + x);
       const uvec2* id = ids + std::size_t(y) * idsStride + x;
       p.at[i] = p.besideX[i] = p.besideY[i] = at;
       p.signX.v[i] = p.signY.v[i] = 1.0f;
@@ -257,13 +257,13 @@ void LaneShading::sortPixels(const Job& job, std::size_t begin, std::size_t end,
       for (std::size_t x = 0; x < width; ++x) {
         if (ids[x].y != word) continue;
         const std::uint32_t number = job.hits[y * width + x].x;
-        of(number == 0 ? sky : triangles[number - 1].w >> 2u, y * width + x);
+        of(number == 0 ? sky : triangles[number - 1].w >> 2u, std::uint32_t(x | y << 16u));
       }
     }
   };
   band.counts.resize(sky + 1);  // all zero between frames
   band.partsSeen.clear();
-  forPixels([&](std::uint32_t part, std::size_t) {
+  forPixels([&](std::uint32_t part, std::uint32_t) {
     if (band.counts[part]++ == 0) band.partsSeen.push_back(part);
   });
   band.runs.clear();
@@ -273,18 +273,13 @@ void LaneShading::sortPixels(const Job& job, std::size_t begin, std::size_t end,
     first += std::exchange(band.counts[part], first);
   }
   band.pixels.resize(first);
-  forPixels([&](std::uint32_t part, std::size_t pixel) {
-    band.pixels[band.counts[part]++] = std::uint32_t(pixel);
-  });
+  forPixels([&](std::uint32_t part, std::uint32_t pixel) { band.pixels[band.counts[part]++] = pixel; });
   for (const std::uint32_t part : band.partsSeen) band.counts[part] = 0;
 }
 
 void LaneShading::shade(raster::FrameContext& frame, const raster::Chain& chain,
                         const SceneTriangles& triangles, std::span<const uvec2> hits, raster::Level& target) {
-  const scene::Environment& surroundings = frame.scene.environment();
-  const raster::LaneEnvironment environment(surroundings.radiance), prefiltered(surroundings.prefiltered);
-  const Job job{frame,       chain,       triangles,   hits,
-                *this,       target.isLast, environment, prefiltered,
+  const Job job{frame,         chain, triangles, hits, *this, target.isLast, frame.scene.laneEnvironment(),
                 frame.scene.packLights()};
   if (!frame.addsTo) readTarget(target);
   const auto height = std::size_t(bounds_.height), stride = std::size_t(frame.camera.widthPx);

@@ -35,7 +35,7 @@ class LaneShading {
   struct Run {
     std::uint32_t part, first, count;
   };
-  /// Some rows, and their pixels of the mirror sorted by part: numbers within the bounds.
+  /// Some rows, and their pixels of the mirror sorted by part: x | y << 16 within the bounds.
   struct Band {
     std::vector<std::uint32_t> counts, partsSeen, pixels;
     std::vector<Run> runs;
@@ -49,7 +49,6 @@ class LaneShading {
     LaneShading& images;
     bool isLast;
     const raster::LaneEnvironment& environment;
-    const raster::LaneEnvironment& prefiltered;
     std::vector<vec4> lights;
   };
 
