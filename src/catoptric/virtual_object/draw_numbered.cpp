@@ -77,7 +77,7 @@ bool VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, const raster
   else
     drawNumbersHere(frame, chain, view, p, withDepths);
   if (!numbersByGl_ && !withDepths) {
-    shading_.inLanes().shade(frame, chain, shading_.triangles(), numbers_.hits, target);
+    shading_.inLanes().shade(frame, chain, shading_.triangles(), {numbers_.hits, true}, target);
     return true;
   }
   findPartRects(frame.scene.levels().triangleParts(), chain.bounds, numbers_.hits, frame.parentIds,

@@ -63,6 +63,7 @@ struct ShadeBand {
   int width, height;                ///< of the bounds
   const uvec2* ids;                 ///< of the first pixel of the bounds
   std::size_t idsStride;
+  vec3 absorption;
 
   /// Eight pixels and their neighbours on the same mirror.
   struct Pixels {
@@ -109,8 +110,17 @@ struct ShadeBand {
     return s.directionFromOctahedral({loadLast(images.radiances_, at), loadLast(images.weights_, at)});
   }
 
+  CATOPTRIC_INLINE lanes::Mask loadInside(const Pixels& p) const {
+    lanes::Mask isInside;
+    for (int i = 0; i < kLanes; ++i) {
+      const std::uint32_t y = p.at[i] / std::uint32_t(width), x = p.at[i] - y * std::uint32_t(width);
+      isInside.v[i] = (ids[y * idsStride + x].x & kInsideBit) != 0 ? -1 : 0;
+    }
+    return isInside;
+  }
+
   struct Seen {
-    lanes::Vec3 radiance, position, weight{0.0f}, direction{0.0f};
+    lanes::Vec3 radiance, position, weight{1.0f}, direction{0.0f};
     lanes::Float path;
     lanes::Mask isInside{false};
   };
@@ -166,7 +176,7 @@ struct ShadeBand {
     LaneShader::uvec4 corners;
     lanes::Float drawn;
     for (int i = 0; i < kLanes; ++i) {
-      const uvec2 hit = job.hits[p.at[i]];
+      const uvec2 hit = job.hits.hits[p.at[i]];
       const uvec4& triangle = job.triangles.triangleTexels()[hit.x - 1u];
       corners.x[i] = std::int32_t(triangle.x), corners.y[i] = std::int32_t(triangle.y);
       corners.z[i] = std::int32_t(triangle.z), corners.w[i] = std::int32_t(triangle.w);
@@ -177,7 +187,8 @@ struct ShadeBand {
     const Vec3 e1 = Vec3(s.readVertex(corners.y, 0)) - a, e2 = Vec3(s.readVertex(corners.z, 0)) - a;
     a -= ray.origin;
     LaneShader::RayHit hit = s.meetTriangle(ray.direction, 0.0f, a, a + e1, a + e2, cross(e1, e2));
-    hit = s.keepNear(hit, max(drawn - place.w, 0.0f));
+    if (job.hits.fromEye) drawn = drawn - place.w;
+    hit = s.keepNear(hit, max(drawn, 0.0f));
     hit.isFront = hit.isFront || lanes::Mask((corners.w & 1) != 0);
     const LaneShader::SurfacePoint point = s.makeSurfacePoint(ray, corners, hit, e1, e2);
     const lanes::Vec4 base = s.readBaseColor(point);
@@ -186,10 +197,17 @@ struct ShadeBand {
     seen.radiance = shaded.radiance;
     seen.position = point.position;
     seen.path = place.w + hit.t;
+    lanes::Mask isInside(false);
+    if (job.hasSolids) {
+      isInside = loadInside(p);
+      const Vec3 left = choose(isInside, s.absorbLight(absorption, hit.t), Vec3(1.0f));
+      seen.radiance *= left;
+      seen.weight = left;
+    }
     if (isMirror) {
-      seen.weight = shaded.weight;
+      seen.weight *= shaded.weight;
       seen.direction = shaded.mirrorDirection;
-      seen.isInside = s.isInsideBehind(shaded, point.isFront, false);
+      seen.isInside = s.isInsideBehind(shaded, point.isFront, isInside);
     }
     store(p, seen, isMirror, uvec2(s.u_objectWord, s.u_reflectorWord));
   }
@@ -256,7 +274,7 @@ void LaneShading::sortPixels(const Job& job, std::size_t begin, std::size_t end,
       const uvec2* ids = &job.frame.parentIds[(std::size_t(bounds_.y) + y) * stride + std::size_t(bounds_.x)];
       for (std::size_t x = 0; x < width; ++x) {
         if (ids[x].y != word) continue;
-        const std::uint32_t number = job.hits[y * width + x].x;
+        const std::uint32_t number = job.hits.hits[y * width + x].x;
         of(number == 0 ? sky : triangles[number - 1].w >> 2u, std::uint32_t(x | y << 16u));
       }
     }
@@ -278,9 +296,18 @@ void LaneShading::sortPixels(const Job& job, std::size_t begin, std::size_t end,
 }
 
 void LaneShading::shade(raster::FrameContext& frame, const raster::Chain& chain,
-                        const SceneTriangles& triangles, std::span<const uvec2> hits, raster::Level& target) {
-  const Job job{frame,         chain, triangles, hits, *this, target.isLast, frame.scene.laneEnvironment(),
-                frame.scene.packLights()};
+                        const SceneTriangles& triangles, const Hits& hits, raster::Level& target) {
+  const scene::WorldGeometry& world = frame.scene.geometry();
+  const Job job{.frame = frame,
+                .chain = chain,
+                .triangles = triangles,
+                .hits = hits,
+                .images = *this,
+                .isLast = target.isLast,
+                .hasSolids = std::any_of(world.reflectors.begin(), world.reflectors.end(),
+                                         [](const scene::Reflector& r) { return r.isRefractor(); }),
+                .environment = frame.scene.laneEnvironment(),
+                .lights = frame.scene.packLights()};
   if (!frame.addsTo) readTarget(target);
   const auto height = std::size_t(bounds_.height), stride = std::size_t(frame.camera.widthPx);
   const std::size_t bands = std::min(height, std::size_t(8 * core::threadCount()));
@@ -289,7 +316,8 @@ void LaneShading::shade(raster::FrameContext& frame, const raster::Chain& chain,
     LaneShader shader;
     setUniforms(job, shader);
     ShadeBand self{job, *this, shader, bounds_.width, bounds_.height,
-                   &frame.parentIds[std::size_t(bounds_.y) * stride + std::size_t(bounds_.x)], stride};
+                   &frame.parentIds[std::size_t(bounds_.y) * stride + std::size_t(bounds_.x)], stride,
+                   raster::findAbsorption(chain, world)};
     for (std::size_t b = begin; b < end; ++b) {
       sortPixels(job, b * height / bands, (b + 1) * height / bands, bands_[b]);
       core::runOnWidestVectors<ShadeBand>(self, bands_[b]);

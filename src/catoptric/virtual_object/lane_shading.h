@@ -27,9 +27,14 @@ class LaneShading {
   /// Points on the mirror, row by row of the bounds; w: length of the path to them.
   [[nodiscard]] std::span<const vec4> positions() const { return positions_; }
 
-  /// `hits`: of the bounds, as NumberImage::hits. Adds to frame.addsTo, or writes `target`.
+  /// Triangle + 1 at each pixel of the bounds, 0: none; bits of the distance to it.
+  struct Hits {
+    std::span<const uvec2> hits;
+    bool fromEye;  ///< is it the length of the path from the eye, or from the mirror?
+  };
+  /// Adds to frame.addsTo, or writes `target`, at the pixels of the chain's mirror.
   void shade(raster::FrameContext& frame, const raster::Chain& chain, const SceneTriangles& triangles,
-             std::span<const uvec2> hits, raster::Level& target);
+             const Hits& hits, raster::Level& target);
 
   /// Pixels of one part; `part` is the number of parts where nothing but the environment is seen.
   struct Run {
@@ -45,9 +50,10 @@ class LaneShading {
     raster::FrameContext& frame;
     const raster::Chain& chain;
     const SceneTriangles& triangles;
-    std::span<const uvec2> hits;
+    const Hits& hits;
     LaneShading& images;
     bool isLast;
+    bool hasSolids;  ///< light may be absorbed on its way
     const raster::LaneEnvironment& environment;
     std::vector<vec4> lights;
   };

@@ -79,7 +79,7 @@ CoverQuery ExactMethod::makeQuery(const raster::FrameContext& frame, const raste
 }
 
 void ExactMethod::drawHits(raster::FrameContext& frame, const raster::Chain& chain,
-                           const raster::Level& parent, const CoverQuery& query, PartImage* image) {
+                           const raster::Level& parent, PartImage* image) {
   if (testsByGl_) {
     shading_.beginHits(chain.bounds);
   } else {
@@ -95,7 +95,7 @@ void ExactMethod::drawHits(raster::FrameContext& frame, const raster::Chain& cha
           std::make_unique<gl::Program>("virtual_object/exact_cover.vert", "virtual_object/exact_hit.frag");
     hitProgram_->use();
     shading_.bindInputs(*hitProgram_, parent, chain);
-    hitProgram_->set("u_ownPart", query.ownPart);
+    hitProgram_->set("u_ownPart", query_.ownPart);
     shading_.drawRects(cover_.opaque);
   }
   const std::vector<std::uint32_t>& parts = frame.scene.geometry().triangleParts;
@@ -161,18 +161,24 @@ void ExactMethod::findCover(raster::FrameContext& frame, const CoverQuery& query
   frame.counters.fragmentTests += cover_.offeredPixels;
 }
 
-void ExactMethod::renderRest(raster::FrameContext& frame, const raster::Chain& chain,
-                             const raster::Level& parent, raster::Level& target,
-                             std::span<const std::uint8_t> isDone, PartImage& image) {
-  const CoverQuery query = makeQuery(frame, chain);
+const HitImage* ExactMethod::findHits(raster::FrameContext& frame, const raster::Chain& chain,
+                                      std::span<const std::uint8_t> isDone) {
+  query_ = makeQuery(frame, chain);
   for (std::size_t i = 0; i < isDone.size(); ++i)  // no other chain has these pixels
     if (isDone[i] != 0)
       rays_
           .words[std::size_t(chain.bounds.y + int(i) / chain.bounds.width) * std::size_t(rays_.widthPx) +
                  std::size_t(chain.bounds.x + int(i) % chain.bounds.width)]
           .y = 0;
-  findCover(frame, query);
-  drawHits(frame, chain, parent, query, &image);
+  findCover(frame, query_);
+  const bool isComplete = !testsByGl_ && frame.merge == raster::Merge::Ids && cover_.masked.empty() &&
+                          cover_.blended.empty();
+  return isComplete ? &hits_ : nullptr;
+}
+
+void ExactMethod::drawRest(raster::FrameContext& frame, const raster::Chain& chain,
+                           const raster::Level& parent, raster::Level& target, PartImage* image) {
+  drawHits(frame, chain, parent, image);
   shadeHits(frame, chain, parent, target);
   background_.draw(frame.scene, chain, parent, target);
   drawBlended(frame, chain, parent, target);
@@ -182,16 +188,13 @@ void ExactMethod::render(raster::FrameContext& frame, const raster::Chain& chain
                          raster::Level& target) {
   // 1
   static_cast<void>(findRays(frame, chain, parent));
-  // 2
-  const CoverQuery query = makeQuery(frame, chain);
-  findCover(frame, query);
-  // 3
-  drawHits(frame, chain, parent, query, nullptr);
-  // 4
-  shadeHits(frame, chain, parent, target);
-  // 5
-  background_.draw(frame.scene, chain, parent, target);
-  drawBlended(frame, chain, parent, target);
+  // 2 to 5
+  if (const HitImage* image = findHits(frame, chain, {})) {
+    shading_.inLanes().readParent(parent, chain.bounds);
+    shading_.inLanes().shade(frame, chain, shading_.triangles(), {image->hits, false}, target);
+    return;
+  }
+  drawRest(frame, chain, parent, target, nullptr);
 }
 
 }  // namespace catoptric::virtual_object

@@ -12,6 +12,7 @@
 //   4. Part by part, what was met is shaded once at each pixel, with the functions that shade directly seen
 //      surfaces (exact_shade.frag). Derivatives of texture coordinates are those of the rays (Igehy 1999),
 //      not of the fragments.
+//      Where GL is software and nothing is masked or blended, by the processor (lane_shading.h).
 //   5. The environment behind it; blended triangles over it, from far to near as seen from the mirror's
 //      centre.
 // Departures: methods.md bounds a virtual triangle by its three reflection points; tiles need none, so
@@ -61,10 +62,13 @@ class ExactMethod : public raster::ReflectionMethod {
   /// The rays of a mirror's pixels; the images are the level's, and hold nothing outside of chain.bounds.
   [[nodiscard]] const RayImages& findRays(const raster::FrameContext& frame, const raster::Chain& chain,
                                           const raster::Level& parent);
-  /// As render(), at pixels of chain.bounds that have a 0 in `isDone` (row by row) only, which `image` was
-  /// told, too.
-  void renderRest(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
-                  raster::Level& target, std::span<const std::uint8_t> isDone, PartImage& image);
+  /// What the rays of findRays() meet at pixels of chain.bounds that have a 0 in `isDone` (row by row; empty:
+  /// at all). Null where GL has to draw, and to shade: drawRest().
+  [[nodiscard]] const HitImage* findHits(raster::FrameContext& frame, const raster::Chain& chain,
+                                         std::span<const std::uint8_t> isDone);
+  /// What findHits() did not do. `image`: was told which pixels are done; null: none.
+  void drawRest(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
+                raster::Level& target, PartImage* image);
 
   /// What was offered by the last render(), and the rays it was offered to; for tests of conservativeness.
   [[nodiscard]] const Cover& cover() const { return cover_; }
@@ -79,7 +83,7 @@ class ExactMethod : public raster::ReflectionMethod {
   void findCover(raster::FrameContext& frame, const CoverQuery& query);
   /// `image`: closes the pixels that are done; may be null.
   void drawHits(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
-                const CoverQuery& query, PartImage* image);
+                PartImage* image);
   void shadeHits(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
                  const raster::Level& target);
   void drawBlended(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
@@ -94,6 +98,7 @@ class ExactMethod : public raster::ReflectionMethod {
   RayImages rays_;
   Cover cover_;
   HitImage hits_;
+  CoverQuery query_;
   bool testsByGl_ = true;
 };
 

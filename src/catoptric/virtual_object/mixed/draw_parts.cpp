@@ -11,6 +11,7 @@
 //   4. The others, and pixels of no part, are drawn by solver `exact`, as if the rest of the mirror were not
 //      there.
 #include <algorithm>
+#include <bit>
 #include <chrono>
 
 #include "catoptric/core/parallel.h"
@@ -188,14 +189,27 @@ void VirtualObjectMethod::drawInParts(raster::FrameContext& frame, const raster:
   const auto done = std::size_t(std::count(isDone_.begin(), isDone_.end(), std::uint8_t(1)));
   frame.counters.virtualPixels += done;
   frame.counters.boundedPixels += chain.pixels - done;
+  // 4
+  if (const HitImage* rest = exact_.findHits(frame, chain, isDone_)) {
+    LaneShading& lanes = shading_.inLanes();
+    lanes.readParent(parent, chain.bounds);
+    std::vector<uvec2>& all = partPixels_.confirmed.hits;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const uvec2 hit = rest->hits[i];
+      if (isDone_[i] != 0 || hit.x == 0) continue;
+      const float path = lanes.positions()[i].w + std::bit_cast<float>(hit.y);
+      all[i] = uvec2(hit.x, std::bit_cast<std::uint32_t>(path));
+    }
+    lanes.shade(frame, chain, shading_.triangles(), {all, true}, target);
+    return;
+  }
   partImage_->setDone(chain.bounds, isDone_);
   shading_.uploadHits(chain.bounds, hits, partPixels_.confirmed.depths);
   findPartRects(world.triangleParts, chain.bounds, hits, frame.parentIds, parent.widthPx, chain.parentWord(),
                 rects_);
   shading_.shadeVirtual(frame, chain, parent, target, false, rects_.inner);
   shading_.shadeVirtual(frame, chain, parent, target, true, rects_.edges);
-  // 4
-  exact_.renderRest(frame, chain, parent, target, isDone_, *partImage_);
+  exact_.drawRest(frame, chain, parent, target, partImage_.get());
 }
 
 }  // namespace catoptric::virtual_object
