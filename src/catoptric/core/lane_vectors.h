@@ -17,8 +17,7 @@ struct Vec2 {
   CATOPTRIC_INLINE Vec2(Float a, Float b) : x(a), y(b) {}
   CATOPTRIC_INLINE Vec2(const ivec2& all) : x(float(all.x)), y(float(all.y)) {}
   template <class Longer>
-    requires(Longer::kSize > 2)
-  CATOPTRIC_INLINE explicit Vec2(const Longer& v) : x(v.x), y(v.y) {}
+  requires(Longer::kSize > 2) CATOPTRIC_INLINE explicit Vec2(const Longer& v) : x(v.x), y(v.y) {}
   CATOPTRIC_INLINE Float& operator[](int i) { return i == 0 ? x : y; }
   CATOPTRIC_INLINE const Float& operator[](int i) const { return i == 0 ? x : y; }
 };
@@ -32,8 +31,7 @@ struct Vec3 {
   CATOPTRIC_INLINE Vec3(const Vec2& v, Float c) : x(v.x), y(v.y), z(c) {}
   CATOPTRIC_INLINE Vec3(const vec3& all) : x(all.x), y(all.y), z(all.z) {}
   template <class Longer>
-    requires(Longer::kSize > 3)
-  CATOPTRIC_INLINE explicit Vec3(const Longer& v) : x(v.x), y(v.y), z(v.z) {}
+  requires(Longer::kSize > 3) CATOPTRIC_INLINE explicit Vec3(const Longer& v) : x(v.x), y(v.y), z(v.z) {}
   CATOPTRIC_INLINE Float& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
   CATOPTRIC_INLINE const Float& operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
 };
@@ -51,7 +49,6 @@ struct Vec4 {
 
 template <class V>
 concept IsVector = std::same_as<V, Vec2> || std::same_as<V, Vec3> || std::same_as<V, Vec4>;
-
 
 template <IsVector V>
 CATOPTRIC_INLINE V operator+(const V& a, const V& b) {

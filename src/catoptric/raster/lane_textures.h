@@ -18,9 +18,8 @@ namespace lanes = core::lanes;
 
 /// Colour from its sRGB code, both 0 to 1. Error below 1e-5.
 CATOPTRIC_INLINE lanes::Float linearFromSrgb(lanes::Float code) {
-  const lanes::Float bright =
-      lanes::evaluate(code, 0.00091975503f, 0.032948937f, 0.51325449f, 0.71004817f, -0.42192918f, 0.21590615f,
-                      -0.051152303f);
+  const lanes::Float bright = lanes::evaluate(code, 0.00091975503f, 0.032948937f, 0.51325449f, 0.71004817f,
+                                              -0.42192918f, 0.21590615f, -0.051152303f);
   return lanes::choose(code > 0.04045f, bright, code * (1.0f / 12.92f));
 }
 

@@ -48,8 +48,8 @@ struct Level {
   /// Of the last level, if it need not say what is seen, and draws every pixel that shows a mirror: nobody
   /// asks for its ids.
   bool withIds = true;
-  bool isLast = true;  ///< no level comes after it: its mirrors show the environment, and are shaded with it
-  bool isDrawn = true;     ///< false: nothing of it is to be composed
+  bool isLast = true;   ///< no level comes after it: its mirrors show the environment, and are shaded with it
+  bool isDrawn = true;  ///< false: nothing of it is to be composed
   gl::Scissor drawnBounds;              ///< pixels that may show something
   std::vector<gl::Scissor> drawnRects;  ///< the same of a mirror's level, closer; empty: not known
   bool hasOverlay = false;

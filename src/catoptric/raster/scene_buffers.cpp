@@ -114,8 +114,7 @@ const gl::Texture* SceneBuffers::findTexture(const scene::TextureSlot& slot, boo
       source.image.height(), 1, int(mips.size()), sampler);
   for (std::size_t level = 0; level < mips.size(); ++level)
     texture->upload(int(level), 0, mips[level].data());
-  if (gl::isSoftwareContext())
-    laneTextures_.try_emplace({slot.texture, srgb}, source, mips, srgb);
+  if (gl::isSoftwareContext()) laneTextures_.try_emplace({slot.texture, srgb}, source, mips, srgb);
   return texture.get();
 }
 

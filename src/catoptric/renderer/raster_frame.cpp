@@ -209,7 +209,8 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
     target.withSeen = options.withSeen || options.drawsSeen;
     target.composesSeen = options.withSeen;
     target.isLast = level + 1 == mostLevels;
-    const bool isAdded = target.isLast && !target.withSeen && options.merge == Merge::Ids && shadesHere(options);
+    const bool isAdded =
+        target.isLast && !target.withSeen && options.merge == Merge::Ids && shadesHere(options);
     target.withIds = !target.isLast || options.merge != Merge::Ids || isAdded;
     target.isDrawn = !mirrors.unfollowed.empty();
     context.addsTo = isAdded ? levels_[std::size_t(level)].get() : nullptr;

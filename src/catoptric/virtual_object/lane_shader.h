@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// virtual_shade.frag for eight pixels side by side: the functions are the shaders' own, what they read from GL
-// is here. Used by lane_shading.cpp alone.
+// virtual_shade.frag for eight pixels side by side: the functions are the shaders' own, what they read from
+// GL is here. Used by lane_shading.cpp alone.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ struct LaneShader {
   uint u_objectWord, u_reflectorWord;
   const catoptric::vec4* u_vertices;
 
-  unsigned textures;  ///< SceneBuffers::textureBits()
+  unsigned textures;  ///< bit k: the material has its k-th
   bool isColored, isTwiceMapped, isLastMirror;
 
   [[nodiscard]] bool hasTexture(int slot) const { return ((textures >> unsigned(slot)) & 1u) != 0; }
@@ -51,7 +51,8 @@ struct LaneShader {
   }
   CATOPTRIC_INLINE vec4 readVertex(const core::EightInts& vertex, int texel) const {
     const catoptric::vec4* rows[core::kLanes];
-    for (int i = 0; i < core::kLanes; ++i) rows[i] = u_vertices + (std::size_t(vertex[i]) * 5 + std::size_t(texel));
+    for (int i = 0; i < core::kLanes; ++i)
+      rows[i] = u_vertices + (std::size_t(vertex[i]) * 5 + std::size_t(texel));
     return core::lanes::loadRows(rows);
   }
 

@@ -42,7 +42,8 @@ void setPart(const LaneShading::Job& job, std::uint32_t index, LaneShader& s) {
   const auto maps = scene.laneTextures(part.material);
   s.u_baseColor = maps[0], s.u_metallicRoughness = maps[1], s.u_normalMap = maps[2];
   s.u_occlusion = maps[3], s.u_emissive = maps[4];
-  s.textures = scene.textureBits(part.material);
+  s.textures = 0;
+  for (unsigned slot = 0; slot < maps.size(); ++slot) s.textures |= maps[slot] ? 1u << slot : 0u;
   s.blurred = maps[1] ? nullptr : job.environment.findBlurred(block.factors.x);
   const unsigned attributes = job.triangles.attributes(index);
   s.isColored = (attributes & kWithColors) != 0;
@@ -60,8 +61,8 @@ struct ShadeBand {
   const LaneShading::Job& job;
   LaneShading& images;
   LaneShader& s;
-  int width, height;                ///< of the bounds
-  const uvec2* ids;                 ///< of the first pixel of the bounds
+  int width, height;  ///< of the bounds
+  const uvec2* ids;   ///< of the first pixel of the bounds
   std::size_t idsStride;
   vec3 absorption;
 
@@ -93,7 +94,8 @@ struct ShadeBand {
     }
   }
 
-  CATOPTRIC_INLINE static lanes::Vec4 load(const std::vector<vec4>& image, const std::uint32_t (&at)[kLanes]) {
+  CATOPTRIC_INLINE static lanes::Vec4 load(const std::vector<vec4>& image,
+                                           const std::uint32_t (&at)[kLanes]) {
     const vec4* rows[kLanes];
     for (int i = 0; i < kLanes; ++i) rows[i] = image.data() + at[i];
     return lanes::loadRows(rows);
@@ -315,8 +317,13 @@ void LaneShading::shade(raster::FrameContext& frame, const raster::Chain& chain,
   core::parallelFor(bands, 1, [&](std::size_t begin, std::size_t end) {
     LaneShader shader;
     setUniforms(job, shader);
-    ShadeBand self{job, *this, shader, bounds_.width, bounds_.height,
-                   &frame.parentIds[std::size_t(bounds_.y) * stride + std::size_t(bounds_.x)], stride,
+    ShadeBand self{job,
+                   *this,
+                   shader,
+                   bounds_.width,
+                   bounds_.height,
+                   &frame.parentIds[std::size_t(bounds_.y) * stride + std::size_t(bounds_.x)],
+                   stride,
                    raster::findAbsorption(chain, world)};
     for (std::size_t b = begin; b < end; ++b) {
       sortPixels(job, b * height / bands, (b + 1) * height / bands, bands_[b]);

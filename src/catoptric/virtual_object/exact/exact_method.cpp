@@ -171,8 +171,8 @@ const HitImage* ExactMethod::findHits(raster::FrameContext& frame, const raster:
                  std::size_t(chain.bounds.x + int(i) % chain.bounds.width)]
           .y = 0;
   findCover(frame, query_);
-  const bool isComplete = !testsByGl_ && frame.merge == raster::Merge::Ids && cover_.masked.empty() &&
-                          cover_.blended.empty();
+  const bool isComplete =
+      !testsByGl_ && frame.merge == raster::Merge::Ids && cover_.masked.empty() && cover_.blended.empty();
   return isComplete ? &hits_ : nullptr;
 }
 
