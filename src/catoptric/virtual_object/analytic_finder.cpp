@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Steps: 1 refit the shape that scene/reflector_finding recognised or was told, 2 all reflection points on
-// the whole shape, 3 the one that lies on the mirror, or else the nearest one, which makes a doubly virtual
-// vertex: a shape goes on past the mirror's boundary by itself.
+// the whole shape (of an implicit surface those on the mirror, or else some past its boundary), 3 the one
+// that lies on the mirror, or else the nearest one, which makes a doubly virtual vertex: a shape goes on past
+// the mirror's boundary by itself.
 //
 // Inside a shape the other answers lie anywhere on it, also where the mirror was left out for the light to
 // come in, so only those near the mirror count.
@@ -11,7 +12,6 @@
 // taken for reflected draws outside the mirror's image and is masked.
 #include "catoptric/virtual_object/analytic_finder.h"
 
-#include <array>
 #include <utility>
 
 #include "catoptric/geometry/aspheric_mirror.h"
@@ -73,24 +73,18 @@ class SpecialFinder : public PointFinder {
 class ImplicitFinder : public PointFinder {
  public:
   ImplicitFinder(std::shared_ptr<const geometry::ImplicitSurface> surface, bool isTurned,
-                 std::span<const vec3> points, const scene::Reflector& reflector)
-      : reflector_(std::move(surface), isTurned, points, reflector.radius),
-        chooser_{reflector.centre, reflector.radius * kSlack},
-        hasOne_(reflector.isConvex && !isTurned) {}
+                 const geometry::MeshView& mesh, const scene::Reflector& reflector)
+      : reflector_(std::move(surface), isTurned, mesh, reflector.radius),
+        chooser_{reflector.centre, reflector.radius * kSlack} {}
   void setEye(const EyeView& view) override { eye_ = view.eye; }
   [[nodiscard]] bool knowsHiddenPoints() const override { return false; }
   [[nodiscard]] std::optional<FoundPoint> find(const dvec3& scenePoint) const override {
-    if (hasOne_)
-      if (const auto first = reflector_.findFromBestSeed(eye_, scenePoint))
-        if (const auto found = chooser_.choose(std::array{*first}, false); found && !found->isPastBoundary)
-          return found;
     return chooser_.choose(reflector_.findReflections(eye_, scenePoint), false);
   }
 
  private:
   ImplicitReflector reflector_;
   Chooser chooser_;
-  bool hasOne_;  ///< on the mirror; past its boundary the surface may bend the other way
   dvec3 eye_{0};
 };
 
@@ -182,7 +176,7 @@ std::unique_ptr<PointFinder> makeAnalyticFinder(const scene::WorldGeometry& worl
     return profile ? std::make_unique<ExtrudedFinder>(*profile, skirt) : nullptr;
   }
   if (auto surface = fitImplicit(mirror.shape, mesh.view()))
-    return std::make_unique<ImplicitFinder>(std::move(surface), flipped, mesh.positions, mirror);
+    return std::make_unique<ImplicitFinder>(std::move(surface), flipped, mesh.view(), mirror);
   auto special = fitSpecial(mirror.shape, mesh.view());
   if (!special) return nullptr;
   if (flipped) special->isInside = !special->isInside;

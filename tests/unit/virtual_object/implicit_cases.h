@@ -8,6 +8,7 @@
 
 #include "catoptric/geometry/mesh.h"
 #include "catoptric/geometry/quadric.h"
+#include "catoptric/geometry/shape_recognition.h"
 #include "root_judge.h"
 
 namespace catoptric::virtual_object {
@@ -27,6 +28,10 @@ struct ImplicitCase {
 };
 
 [[nodiscard]] std::vector<ImplicitCase> makeImplicitCases();
+
+[[nodiscard]] inline geometry::MeshView viewMesh(const geometry::Mesh& mesh) {
+  return {mesh.positions, mesh.normals, mesh.indices};
+}
 
 /// Fails the test where nothing fits.
 [[nodiscard]] Surface fitSurface(const ImplicitCase& c);
