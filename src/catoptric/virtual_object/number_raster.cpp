@@ -39,11 +39,8 @@ class Binner {
       : picture_(picture), chunk_(chunk), stride_(picture.bounds.width + kLanes) {}
 
   void add(const raster::TessellatedObjects& objects, std::size_t t) {
-    corners_[lanes_] = &objects.indices[3 * t];
-    const std::array<vec3, 3> screen{picture_.screen[corners_[lanes_][0]],
-                                     picture_.screen[corners_[lanes_][1]],
-                                     picture_.screen[corners_[lanes_][2]]};
-    setLane(lanes_, screen, objects.sourceTriangles[t]);
+    for (std::size_t k = 0; k < 3; ++k) corners_[k][lanes_] = objects.indices[3 * t + k];
+    numbers_[lanes_] = objects.sourceTriangles[t];
     if (++lanes_ == kGroup) flush();
   }
 
@@ -51,6 +48,7 @@ class Binner {
     group_.wanted = (1u << lanes_) - 1u;
     lanes_ = 0;
     if (group_.wanted == 0) return;
+    gatherCorners(picture_.screen, corners_, group_);
     setUpTriangles(picture_.bounds, group_);
     for (unsigned lane = 0; lane < kGroup; ++lane) {
       if ((group_.hard >> lane & 1u) == 0)
@@ -63,12 +61,6 @@ class Binner {
  private:
   static constexpr unsigned kGroup = TriangleGroup::kLanes;
 
-  void setLane(unsigned lane, const std::array<vec3, 3>& screen, std::uint32_t number) {
-    numbers_[lane] = number;
-    for (std::size_t k = 0; k < 3; ++k)
-      group_.x[k][lane] = screen[k].x, group_.y[k][lane] = screen[k].y,
-      group_.nearness[k][lane] = screen[k].z;
-  }
   [[nodiscard]] std::array<vec3, 3> laneOf(unsigned lane) const {
     std::array<vec3, 3> s;
     for (std::size_t k = 0; k < 3; ++k)
@@ -137,10 +129,12 @@ class Binner {
       return addLarge(screen, numbers_[lane]);
     std::array<vec4, 3> clip;
     for (std::size_t k = 0; k < 3; ++k)
-      clip[k] = picture_.clipFromDraw * vec4(picture_.virtualPositions[corners_[lane][k]], 1.0f);
+      clip[k] = picture_.clipFromDraw * vec4(picture_.virtualPositions[corners_[k][lane]], 1.0f);
     Binner pieces(picture_, chunk_);
     clipToScreen(clip, picture_.widthPx, picture_.heightPx, [&](const std::array<vec3, 3>& s) {
-      pieces.setLane(0, s, numbers_[lane]);
+      for (std::size_t k = 0; k < 3; ++k)
+        pieces.group_.x[k][0] = s[k].x, pieces.group_.y[k][0] = s[k].y, pieces.group_.nearness[k][0] = s[k].z;
+      pieces.numbers_[0] = numbers_[lane];
       pieces.group_.wanted = 1;
       setUpTriangles(picture_.bounds, pieces.group_);
       if (pieces.group_.hard != 0)
@@ -173,7 +167,7 @@ class Binner {
   int stride_;
   unsigned lanes_ = 0;  ///< that are filled
   std::array<std::uint32_t, kGroup> numbers_{};
-  std::array<const std::uint32_t*, kGroup> corners_{};
+  std::uint32_t corners_[3][kGroup] = {};
   TriangleGroup group_{};
 };
 

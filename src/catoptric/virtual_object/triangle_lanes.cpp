@@ -152,7 +152,24 @@ struct SetUpTriangles {
   }
 };
 
+struct GatherCorners {
+  static CATOPTRIC_INLINE void run(const std::span<const vec3>& screen,
+                                   const std::uint32_t (&corners)[3][TriangleGroup::kLanes],
+                                   TriangleGroup& group) {
+    for (int k = 0; k < 3; ++k) {
+      Eight columns[3];
+      core::gatherTriples(&screen.data()->x, corners[k], 1, columns);
+      store(group.x[k], columns[0]), store(group.y[k], columns[1]), store(group.nearness[k], columns[2]);
+    }
+  }
+};
+
 }  // namespace
+
+void gatherCorners(std::span<const vec3> screen, const std::uint32_t (&corners)[3][TriangleGroup::kLanes],
+                   TriangleGroup& group) {
+  core::runOnWidestVectors<GatherCorners>(screen, corners, group);
+}
 
 void setUpTriangles(const gl::Scissor& bounds, TriangleGroup& group) {
   core::runOnWidestVectors<SetUpTriangles>(bounds, group);

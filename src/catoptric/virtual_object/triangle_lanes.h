@@ -14,7 +14,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
+#include "catoptric/core/math.h"
 #include "catoptric/gl/framebuffer.h"
 
 namespace catoptric::virtual_object {
@@ -43,6 +45,10 @@ struct alignas(64) TriangleGroup {
   Ints inside[2];  ///< out, of tiny: bit 8 j + i of [0] for pixel (i, j), of [1] for (i, 4 + j). Outside of
                    ///< the box it says nothing
 };
+
+/// Fills in `x`, `y` and `nearness`: corner k of lane i is screen[corners[k][i]]. All lanes are read.
+void gatherCorners(std::span<const vec3> screen, const std::uint32_t (&corners)[3][TriangleGroup::kLanes],
+                   TriangleGroup& group);
 
 /// Fills the outputs. `bounds`: of the pixels that are drawn. In none of the three: no pixel of the bounds,
 /// or no area.
