@@ -17,7 +17,6 @@ namespace {
 
 using core::Eight;
 using core::EightInts;
-using core::fromBits;
 using core::kLanes;
 using core::toBits;
 

@@ -77,7 +77,7 @@ struct FindSeen {
     }
     const Eight area = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]),
                 sum = x[0] + x[1] + x[2];
-    const EightInts isNan = sum != sum, isTurnedAway = area * question.facing < 0.0f;
+    const EightInts isNan = ~((sum >= 0.0f) | (sum < 0.0f)), isTurnedAway = area * question.facing < 0.0f;
     Eight firstX, lastX, firstY, lastY;
     findCentres(x, question.lower.x, question.upper.x, firstX, lastX);
     findCentres(y, question.lower.y, question.upper.y, firstY, lastY);
