@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -78,6 +79,29 @@ CATOPTRIC_INLINE void transpose(Eights& m) {
     m[k] = __builtin_shufflevector(fours[k], fours[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
     m[k + 4] = __builtin_shufflevector(fours[k], fours[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
   }
+}
+
+/// Points of an array of triples as three columns: from[which[0]], from[which[step]] and so on.
+CATOPTRIC_INLINE void gatherTriples(const float* from, const std::uint32_t* which, int step, Eight* columns) {
+  using Two = double __attribute__((vector_size(16)));
+  using Four = float __attribute__((vector_size(16)));
+  Four rows[kLanes];
+  for (int i = 0; i < kLanes; ++i) {
+    const float* triple = from + 3 * std::size_t(which[i * step]);
+    Two both{};  // not one float more than there is
+    std::memcpy(&both, triple, 2 * sizeof(float));
+    std::memcpy(&rows[i], &both, sizeof both);
+    rows[i][2] = triple[2];
+  }
+  Eight r[4], pairs[4];
+  for (int i = 0; i < 4; ++i) r[i] = __builtin_shufflevector(rows[i], rows[i + 4], 0, 1, 2, 3, 4, 5, 6, 7);
+  for (int i = 0; i < 2; ++i) {
+    pairs[2 * i] = __builtin_shufflevector(r[2 * i], r[2 * i + 1], 0, 8, 1, 9, 4, 12, 5, 13);
+    pairs[2 * i + 1] = __builtin_shufflevector(r[2 * i], r[2 * i + 1], 2, 10, 3, 11, 6, 14, 7, 15);
+  }
+  columns[0] = __builtin_shufflevector(pairs[0], pairs[2], 0, 1, 8, 9, 4, 5, 12, 13);
+  columns[1] = __builtin_shufflevector(pairs[0], pairs[2], 2, 3, 10, 11, 6, 7, 14, 15);
+  columns[2] = __builtin_shufflevector(pairs[1], pairs[3], 0, 1, 8, 9, 4, 5, 12, 13);
 }
 
 }  // namespace catoptric::core

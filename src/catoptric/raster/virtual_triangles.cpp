@@ -2,45 +2,26 @@
 // A mirror turns every triangle's orientation round, as seen from the eye against as seen from the mirror. A
 // triangle that reaches around the reflector's shadow does not: its corners come to lie all around the rim,
 // and drawn it would cover the mirror from rim to rim with what belongs into a ring thinner than a pixel.
-// Orientation finds it.
+// Orientation finds it, eight triangles side by side.
 #include "catoptric/raster/virtual_triangles.h"
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
+#include <cstddef>
 
+#include "catoptric/core/eight_lanes.h"
 #include "catoptric/core/parallel.h"
 
 namespace catoptric::raster {
 namespace {
 
+using core::Eight;
+using core::EightInts;
+using core::kLanes;
+using core::toBits;
+
 constexpr std::size_t kTrianglesPerTask = 4096;
 constexpr float kEdgeOn = 0.02f;  // sine below which a face says nothing about its orientation
-
-/// +1 where all three points lie in front of their triangle's plane, -1 behind, 0 mixed or nearly in it.
-int findSide(const vec3& normal, const vec3 offsets[3]) {
-  const float scale = kEdgeOn * std::sqrt(glm::dot(normal, normal));
-  int side = 0;
-  for (int k = 0; k < 3; ++k) {
-    const float height = glm::dot(normal, offsets[k]);
-    const float least = scale * std::sqrt(glm::dot(offsets[k], offsets[k]));
-    const int here = height > least ? 1 : height < -least ? -1 : 0;
-    if (here == 0 || (k > 0 && here != side)) return 0;
-    side = here;
-  }
-  return side;
-}
-
-/// Real corners q, virtual ones w, reflection points j; eye.
-bool isInsideOut(const vec3 q[3], const vec3 w[3], const vec3 j[3], const vec3& eye) {
-  const vec3 normal = glm::cross(q[1] - q[0], q[2] - q[0]);
-  const vec3 towardsMirror[3] = {j[0] - q[0], j[1] - q[1], j[2] - q[2]};
-  const int real = findSide(normal, towardsMirror);
-  if (real == 0) return false;
-  const vec3 towardsEye = eye - w[0];
-  const float image = glm::dot(glm::cross(w[1] - w[0], w[2] - w[0]), towardsEye);
-  return image * float(real) > 0.0f;
-}
 
 /// What tells whether a triangle is kept, by vertex.
 struct Judge {
@@ -48,21 +29,106 @@ struct Judge {
   std::span<const VertexKind> kinds;
   vec3 eye;
   float longestChord;
+};
 
-  [[nodiscard]] bool keeps(const std::uint32_t v[3]) const {
-    const VertexKind a = kinds[v[0]], b = kinds[v[1]], c = kinds[v[2]];
-    if (a == VertexKind::None || b == VertexKind::None || c == VertexKind::None) return false;
-    if (a != VertexKind::Reflected && b != VertexKind::Reflected && c != VertexKind::Reflected) return false;
-    const vec3 q[3] = {scenePoints[v[0]], scenePoints[v[1]], scenePoints[v[2]]};
-    const vec3 w[3] = {virtualPositions[v[0]], virtualPositions[v[1]], virtualPositions[v[2]]};
-    const vec3 j[3] = {reflectionPoints[v[0]], reflectionPoints[v[1]], reflectionPoints[v[2]]};
-    const bool isMixed = a != b || b != c;
-    if (isMixed && std::max({glm::distance(j[0], j[1]), glm::distance(j[1], j[2]),
-                             glm::distance(j[2], j[0])}) > longestChord)
-      return false;
-    return !isInsideOut(q, w, j, eye);
+/// Eight points or directions.
+struct Vectors {
+  Eight v[3];
+};
+
+CATOPTRIC_INLINE Vectors operator-(const Vectors& a, const Vectors& b) {
+  return {{a.v[0] - b.v[0], a.v[1] - b.v[1], a.v[2] - b.v[2]}};
+}
+
+CATOPTRIC_INLINE Eight dot(const Vectors& a, const Vectors& b) {
+  return core::dot(a.v, b.v);
+}
+
+CATOPTRIC_INLINE Vectors cross(const Vectors& a, const Vectors& b) {
+  return {{a.v[1] * b.v[2] - b.v[1] * a.v[2], a.v[2] * b.v[0] - b.v[2] * a.v[0],
+           a.v[0] * b.v[1] - b.v[0] * a.v[1]}};
+}
+
+/// A corner of eight triangles in a row; `corner` points to that of the first.
+CATOPTRIC_INLINE Vectors gather(std::span<const vec3> from, const std::uint32_t* corner) {
+  Vectors points;
+  core::gatherTriples(&from.data()->x, corner, 3, points.v);
+  return points;
+}
+
+/// -1 where all three points lie on one side of their triangle's plane, `inFront` which; 0 mixed or nearly in
+/// it.
+CATOPTRIC_INLINE EightInts findSides(const Vectors& normal, const Vectors (&offsets)[3], EightInts& inFront) {
+  const Eight scale = kEdgeOn * core::squareRoot(dot(normal, normal));
+  EightInts front = ~EightInts{}, behind = front;
+  for (const Vectors& offset : offsets) {
+    const Eight height = dot(normal, offset), least = scale * core::squareRoot(dot(offset, offset));
+    front &= height > least, behind &= height < -least;
+  }
+  inFront = front;
+  return front | behind;
+}
+
+/// Bits for those with a None corner or without a Reflected one; `mixed`: for those of two kinds.
+unsigned findKindless(const Judge& judge, const std::uint32_t* corners, unsigned& mixed) {
+  unsigned dropped = 0;
+  mixed = 0;
+  for (unsigned i = 0; i < unsigned(kLanes); ++i, corners += 3) {
+    unsigned present = 0;  // a bit for each kind
+    for (int k = 0; k < 3; ++k) present |= 1u << unsigned(judge.kinds[corners[k]]);
+    constexpr unsigned kNone = 1u << unsigned(VertexKind::None),
+                       kReflected = 1u << unsigned(VertexKind::Reflected);
+    dropped |= unsigned((present & (kNone | kReflected)) != kReflected) << i;
+    mixed |= unsigned(present != kReflected) << i;
+  }
+  return dropped;
+}
+
+/// Of eight triangles in a row, those that are not worth drawing.
+struct FindDropped {
+  static CATOPTRIC_INLINE void run(const Judge& judge, const std::uint32_t*& corners, unsigned& dropped) {
+    unsigned mixed;
+    dropped = findKindless(judge, corners, mixed);
+    if (dropped == 0xffu) return;
+    Vectors q[3], w[3], j[3];
+    for (int k = 0; k < 3; ++k) {
+      q[k] = gather(judge.scenePoints, corners + k), w[k] = gather(judge.virtualPositions, corners + k);
+      j[k] = gather(judge.reflectionPoints, corners + k);
+    }
+    const Vectors normal = cross(q[1] - q[0], q[2] - q[0]),
+                  offsets[3] = {j[0] - q[0], j[1] - q[1], j[2] - q[2]};
+    EightInts inFront;
+    const EightInts isSure = findSides(normal, offsets, inFront);
+    const Eight zero{};
+    const Vectors eye{{zero + judge.eye.x, zero + judge.eye.y, zero + judge.eye.z}};
+    const Eight image = dot(cross(w[1] - w[0], w[2] - w[0]), eye - w[0]);
+    dropped |= toBits(isSure & (inFront ? image > 0.0f : image < 0.0f));
+    if (mixed == 0) return;
+    const Vectors chords[3] = {j[0] - j[1], j[1] - j[2], j[2] - j[0]};
+    EightInts isLong{};
+    for (const Vectors& chord : chords) isLong |= core::squareRoot(dot(chord, chord)) > judge.longestChord;
+    dropped |= mixed & toBits(isLong);
   }
 };
+
+/// Of triangles [begin, end), eight at a time.
+void dropRun(const Judge& judge, std::span<const std::uint32_t> indices, std::size_t begin, std::size_t end,
+             std::span<std::uint8_t> isKept) {
+  for (std::size_t t = begin; t < end; t += kLanes) {
+    const std::size_t count = std::min(end - t, std::size_t(kLanes));
+    if (std::all_of(&isKept[t], &isKept[t] + count, [](std::uint8_t kept) { return kept == 0; })) continue;
+    std::uint32_t few[3 * kLanes] = {};
+    const std::uint32_t* corners = &indices[3 * t];
+    if (count < std::size_t(kLanes)) {
+      std::copy_n(corners, 3 * count, few);
+      corners = few;
+    }
+    unsigned dropped = 0;
+    core::runOnWidestVectors<FindDropped>(judge, corners, dropped);
+    for (std::size_t i = 0; i < count; ++i)
+      if ((dropped >> i & 1u) != 0) isKept[t + i] = 0;
+  }
+}
 
 }  // namespace
 
@@ -77,8 +143,7 @@ void dropVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
   const Judge judge{scenePoints, virtualPositions, reflectionPoints, kinds, vec3(eye), longestChord};
   assert(isKept.size() == objects.indices.size() / 3);
   core::parallelFor(isKept.size(), kTrianglesPerTask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t)
-      if (isKept[t] && !judge.keeps(&objects.indices[3 * t])) isKept[t] = 0;
+    dropRun(judge, objects.indices, begin, end, isKept);
   });
 }
 

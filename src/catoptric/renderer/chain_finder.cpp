@@ -23,10 +23,31 @@ void addTo(std::map<std::uint32_t, Extent>& extents, std::uint32_t word, const E
        e.pixels + more.pixels};
 }
 
-/// All mirrors within `bounds`, not many rows; `isShown` is scratch.
+/// A part of each of some rows.
+struct Columns {
+  int begin, end;
+};
+
+/// Which columns of rows [y0, y1) the rectangles touch, in order and apart.
+void findColumns(std::span<const gl::Scissor> rects, int y0, int y1, std::vector<Columns>& columns) {
+  columns.clear();
+  for (const gl::Scissor& rect : rects)
+    if (rect.y < y1 && rect.y + rect.height > y0) columns.push_back({rect.x, rect.x + rect.width});
+  std::sort(columns.begin(), columns.end(),
+            [](const Columns& a, const Columns& b) { return a.begin < b.begin; });
+  std::size_t count = 0;
+  for (const Columns& more : columns) {
+    if (count > 0 && more.begin <= columns[count - 1].end)
+      columns[count - 1].end = std::max(columns[count - 1].end, more.end);
+    else
+      columns[count++] = more;
+  }
+  columns.resize(count);
+}
+
+/// Adds all mirrors within `bounds`, not many rows; `isShown` is scratch.
 void searchRows(std::span<const uvec2> ids, int width, const gl::Scissor& bounds,
                 std::vector<std::uint8_t>& isShown, ChainFinder::Rows& rows) {
-  rows.extents.clear(), rows.rects.clear();
   const int xEnd = bounds.x + bounds.width;
   isShown.assign(std::size_t(xEnd / kColumnsEach) + 2, 0);
   for (int y = bounds.y; y < bounds.y + bounds.height; ++y) {
@@ -49,23 +70,47 @@ void searchRows(std::span<const uvec2> ids, int width, const gl::Scissor& bounds
   }
 }
 
+/// To whole blocks of `all`.
+gl::Scissor roundOut(const gl::Scissor& rect, const gl::Scissor& all) {
+  const int y0 = std::max(rect.y / kRowsEach * kRowsEach, all.y),
+            y1 = std::min((rect.y + rect.height + kRowsEach - 1) / kRowsEach * kRowsEach, all.y + all.height);
+  const int x0 = std::max(rect.x / kColumnsEach * kColumnsEach, all.x),
+            x1 = std::min((rect.x + rect.width + kColumnsEach - 1) / kColumnsEach * kColumnsEach,
+                          all.x + all.width);
+  return {x0, y0, std::max(x1 - x0, 0), std::max(y1 - y0, 0)};
+}
+
 }  // namespace
 
+void ChainFinder::readIds(const raster::Level& level, std::span<const gl::Scissor> rects) {
+  ids_.resize(std::size_t(level.widthPx) * std::size_t(level.heightPx));
+  rects_.clear();
+  for (const gl::Scissor& rect : rects) {
+    const gl::Scissor rounded = roundOut(rect, level.drawnBounds);
+    if (rounded.width == 0 || rounded.height == 0) continue;
+    rects_.push_back(rounded);
+    level.surfaces.readPixelsInPlace(3, rounded, std::span<uvec2>(ids_));
+  }
+}
+
 VisibleMirrors ChainFinder::find(const raster::Level& level, const std::vector<raster::Chain>& parents,
-                                 int bounces) {
+                                 int bounces, std::span<const gl::Scissor> rects) {
   const int width = level.widthPx;
-  ids_.resize(std::size_t(width) * std::size_t(level.heightPx));
-  level.surfaces.readPixelsInPlace(3, level.drawnBounds, std::span<uvec2>(ids_));
   const gl::Scissor& all = level.drawnBounds;
+  readIds(level, rects.empty() ? std::span(&all, 1) : rects);
   // Rows of pixels that rasterizers draw together.
   const int firstRow = all.y / kRowsEach, rowEnd = (all.y + all.height + kRowsEach - 1) / kRowsEach;
   rows_.resize(std::size_t(std::max(rowEnd - firstRow, 0)));
   core::parallelFor(rows_.size(), 4, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint8_t> isShown;
+    std::vector<Columns> columns;
     for (std::size_t i = begin; i < end; ++i) {
       const int y0 = std::max((firstRow + int(i)) * kRowsEach, all.y);
       const int y1 = std::min((firstRow + int(i) + 1) * kRowsEach, all.y + all.height);
-      searchRows(ids_, width, {all.x, y0, all.width, y1 - y0}, isShown, rows_[i]);
+      rows_[i].extents.clear(), rows_[i].rects.clear();
+      findColumns(rects_, y0, y1, columns);
+      for (const Columns& c : columns)
+        searchRows(ids_, width, {c.begin, y0, c.end - c.begin, y1 - y0}, isShown, rows_[i]);
     }
   });
   VisibleMirrors mirrors;

@@ -27,10 +27,12 @@ class ChainFinder {
   /// Chains count from 1 again.
   void beginFrame() { lastChain_ = 0; }
   /// Chains of at most `bounces` mirrors and scene::kMostCrossings refractors that those visible in a level
-  /// begin; `parents`: the chains of that level. Reads the level's ids back.
+  /// begin; `parents`: the chains of that level. Reads the level's ids back, in `rects` alone, which hold all
+  /// its mirrors and may overlap; empty: wherever something is drawn.
   [[nodiscard]] VisibleMirrors find(const raster::Level& level, const std::vector<raster::Chain>& parents,
-                                    int bounces);
-  /// Of the last level, bottom row first; only where something is drawn.
+                                    int bounces, std::span<const gl::Scissor> rects = {});
+  /// Of the last level, bottom row first; right within the bounds of its chains, elsewhere perhaps from
+  /// before.
   [[nodiscard]] std::span<const uvec2> ids() const { return ids_; }
 
   /// Where on the screen a mirror is.
@@ -45,8 +47,11 @@ class ChainFinder {
   };
 
  private:
+  void readIds(const raster::Level& level, std::span<const gl::Scissor> rects);
+
   const scene::WorldGeometry& world_;
   std::vector<uvec2> ids_;
+  std::vector<gl::Scissor> rects_;  ///< that were read
   std::vector<Rows> rows_;
   std::uint32_t lastChain_ = 0;
 };

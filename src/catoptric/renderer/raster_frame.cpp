@@ -16,6 +16,7 @@
 #include "catoptric/core/sample_pattern.h"
 #include "catoptric/depth_reflection_map/reference_file.h"
 #include "catoptric/reflection_morphing/baked_file.h"
+#include "catoptric/renderer/mirror_rects.h"
 #include "catoptric/renderer/near_plane.h"
 
 namespace catoptric::renderer {
@@ -196,10 +197,16 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   std::vector<raster::Chain> parents{raster::makeEyeChain()};
   int levelCount = 1;
   std::uint64_t visibleReflectors = 0;
-  for (int level = 0; level < mostLevels; ++level) {
+  std::vector<gl::Scissor> mirrorRects;
+  if (mostLevels > 0)
+    mirrorRects = findMirrorRects(geometry_, raster::makeClipFromWorld(camera, context.nearPlane, jitterPx),
+                                  options.widthPx, options.heightPx);
+  const int levelsToLookAt = mirrorRects.empty() ? 0 : mostLevels;
+  for (int level = 0; level < levelsToLookAt; ++level) {
     // 2
     const raster::Level& parent = *levels_[std::size_t(level)];
-    VisibleMirrors mirrors = chains_.find(parent, parents, options.bounces);
+    VisibleMirrors mirrors = chains_.find(parent, parents, options.bounces, mirrorRects);
+    mirrorRects.clear();
     if (level == 0) visibleReflectors = mirrors.chains.size();
     if (mirrors.chains.empty() && mirrors.unfollowed.empty()) break;
     context.parentIds = chains_.ids();

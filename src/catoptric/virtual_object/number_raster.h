@@ -6,19 +6,21 @@
 // Out: for each pixel the number of the nearest triangle whose virtual image its centre lies in, the length
 //      of the path to it, and its depth: HitShading's images.
 // Steps:
-//   1. Triangles, some thousand at a time, to 1/256 of a pixel, and into bands of rows that they touch. Edge
+//   1. Triangles, some thousand at a time, to 1/256 of a pixel, eight side by side (triangle_lanes.h). Edge
 //      functions are integers and follow the top-left rule, so that neighbours leave no gap and no pixel
-//      twice.
-//   2. Band by band, eight pixels of a row side by side: inside of all three edges, nearer than what is there
-//      (1 / w, which is linear on the screen), not before the mirror (1998, section 3)? Triangles wider than
-//      kLargestPx, for which edge functions would not fit, go through item_rasterizer.h; those that reach
-//      behind the eye or far off the picture are cut first.
+//      twice. Into bands of rows come, of tiny ones, the pixels whose centres lie inside; of the others the
+//      triangle, where it touches the band.
+//   2. Band by band, in their order, pixels of tiny triangles one by one, other triangles eight pixels of a
+//      row side by side: inside of all three edges, nearer than what is there (1 / w, which is linear on the
+//      screen), not before the mirror (1998, section 3)? Triangles wider than TriangleGroup::kLargestPx, for
+//      which edge functions would not fit, go through item_rasterizer.h; those that reach behind the eye or
+//      far off the picture are cut first.
 //   3. 1 / w to lengths and depths.
 // Bands are drawn on all cores, each with its triangles in their order, so the result does not depend on
 // their number.
 // Why: Mesa's llvmpipe sets triangles up on one core, at about 0.25 us each, and reading numbers back waits
 // for it. A GPU has no such trouble, and keeps its own way.
-// Cost: about 60 ns a triangle of a few pixels.
+// Cost: about 40 ns a triangle of a few pixels, and 10 ns a pixel.
 #pragma once
 
 #include <cstdint>
@@ -53,6 +55,8 @@ struct NumberImage {
   std::vector<float> depths;  ///< 0 to 1; empty: left out
 };
 
+struct PixelRays;
+
 class NumberRaster {
  public:
   /// Nothing is allocated once it has drawn pictures as large. Returns how many triangles were drawn.
@@ -75,11 +79,34 @@ class NumberRaster {
     Corner corners[3];
     std::uint32_t number;
   };
+  /// What is drawn, in its order: a pixel of a tiny triangle, with its number + 1 and its nearness; or a
+  /// triangle.
+  struct Item {
+    std::uint32_t at;  ///< a place in Rows; with kTriangleBit an index of Chunk::small, kLargeBit of ::large
+    std::uint32_t number;
+    float nearness;
+  };
+  /// Items of some rows; keeps its memory.
+  class Band {
+   public:
+    void clear() { count_ = 0; }
+    [[nodiscard]] std::span<const Item> items() const { return {items_.data(), count_}; }
+    /// `more` items at the end, to be written by the caller.
+    Item* makeRoom(std::size_t more) {
+      if (items_.size() < count_ + more) items_.resize(2 * (count_ + more));
+      count_ += more;
+      return items_.data() + (count_ - more);
+    }
+
+   private:
+    std::vector<Item> items_;
+    std::size_t count_ = 0;
+  };
   /// Step 1 of some triangles.
   struct Chunk {
     std::vector<SmallTriangle> small;
     std::vector<LargeTriangle> large;
-    std::vector<std::vector<std::uint32_t>> bands;  ///< indices of `small`, or of `large` with kLargeBit
+    std::vector<Band> bands;
     std::size_t drawn = 0;
   };
   /// Pixels while they are drawn; rows are longer than the picture by eight pixels.
@@ -88,10 +115,10 @@ class NumberRaster {
     std::uint32_t* numbers;
     int stride, width;
   };
-  static constexpr std::uint32_t kLargeBit = 0x80000000u;
+  static constexpr std::uint32_t kTriangleBit = 0x80000000u, kLargeBit = 0x40000000u;
 
  private:
-  void drawBand(const NumberPicture& picture, int band, NumberImage& image);
+  void drawBand(const NumberPicture& picture, const PixelRays& rays, int band, NumberImage& image);
 
   std::vector<Chunk> chunks_;
   std::vector<float> nearness_, limits_;

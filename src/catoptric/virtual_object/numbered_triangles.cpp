@@ -4,41 +4,113 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <limits>
 
+#include "catoptric/core/eight_lanes.h"
 #include "catoptric/core/parallel.h"
 
 namespace catoptric::virtual_object {
 namespace {
 
+using core::Eight;
+using core::EightInts;
+using core::kLanes;
+using core::larger;
+using core::toBits;
+
 constexpr float kSnap = 1.0f / 32;  // rasterizers round corners to 1/16 of a pixel at worst, most to 1/256
 constexpr std::size_t kVerticesPerTask = 16384, kTrianglesPerTask = 4096;
 
-/// Is the point outside of a triangle whose corners may be `kSnap` away from where they are said to be?
-/// `turn`: the sign of its area.
-bool isOutside(const std::array<vec2, 3>& p, float turn, const vec2& point) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const vec2 edge = p[(k + 1) % 3] - p[k], offset = point - p[k];
-    const float slack = 2.0f * kSnap * (std::abs(edge.x) + std::abs(edge.y) + kSnap);
-    if ((edge.x * offset.y - edge.y * offset.x) * turn < -slack) return true;
-  }
-  return false;
+CATOPTRIC_INLINE Eight smaller(const Eight& a, const Eight& b) {
+  return a < b ? a : b;
 }
 
-/// Has a pixel of the rectangle its centre in the triangle, and does its front face the eye (`facing`: 1 or
-/// -1 by winding, 0: either side will do)? Where several have theirs in its box: true. True for a NaN, too.
-bool mayBeSeen(const std::array<vec2, 3>& p, float facing, const vec2& lower, const vec2& upper) {
-  if (std::isnan(p[0].x + p[1].x + p[2].x)) return true;
-  const vec2 a = p[1] - p[0], b = p[2] - p[0];
-  const float area = a.x * b.y - a.y * b.x;
-  if (area * facing < 0.0f) return false;
-  const vec2 least = glm::max(glm::min(glm::min(p[0], p[1]), p[2]) - kSnap, lower);
-  const vec2 most = glm::min(glm::max(glm::max(p[0], p[1]), p[2]) + kSnap, upper);
-  // Pixel k has its centre at k + 0.5.
-  const vec2 first = glm::ceil(least - 0.5f), last = glm::floor(most - 0.5f);
-  if (last.x < first.x || last.y < first.y) return false;
-  return first != last || !isOutside(p, area < 0.0f ? -1.0f : 1.0f, first + 0.5f);
+CATOPTRIC_INLINE Eight absolute(const Eight& a) {
+  return larger(a, -a);
+}
+
+/// Where triangles are looked for, and which way round.
+struct Question {
+  std::span<const vec3> screen;
+  float facing;       ///< 1 or -1 by winding, 0: either side will do
+  vec2 lower, upper;  ///< of the rectangle
+};
+
+/// Is a point outside of a triangle whose corners may be `kSnap` away from where they are said to be?
+/// `turn`: the sign of its area.
+CATOPTRIC_INLINE EightInts isOutside(const Eight (&x)[3], const Eight (&y)[3], const Eight& turn,
+                                     const Eight& pointX, const Eight& pointY) {
+  EightInts outside{};
+  for (int k = 0; k < 3; ++k) {
+    const int next = (k + 1) % 3;
+    const Eight edgeX = x[next] - x[k], edgeY = y[next] - y[k];
+    const Eight slack = 2.0f * kSnap * (absolute(edgeX) + absolute(edgeY) + kSnap);
+    outside |= (edgeX * (pointY - y[k]) - edgeY * (pointX - x[k])) * turn < -slack;
+  }
+  return outside;
+}
+
+/// The first and the last pixel of [lower, upper] whose centres, at k + 0.5, lie between the least and the
+/// largest of three.
+CATOPTRIC_INLINE void findCentres(const Eight (&v)[3], float lower, float upper, Eight& first, Eight& last) {
+  const Eight below = Eight{} + (lower - 2), above = Eight{} + (upper + 2);  // in the range of integers
+  const Eight least =
+      smaller(larger(smaller(smaller(v[0], v[1]), v[2]) - kSnap, Eight{} + lower), above) - 0.5f;
+  const Eight most = larger(smaller(larger(larger(v[0], v[1]), v[2]) + kSnap, Eight{} + upper), below) - 0.5f;
+  const auto truncate = [](const Eight& a) __attribute__((always_inline)) {
+    return __builtin_convertvector(__builtin_convertvector(a, EightInts), Eight);
+  };
+  first = truncate(least), last = truncate(most);
+  first = first < least ? first + 1.0f : first;  // ceil
+  last = last > most ? last - 1.0f : last;       // floor
+}
+
+/// Of eight triangles in a row, which ones have a pixel of the rectangle whose centre they hold, and turn
+/// their front to the eye? Where several centres lie in a triangle's box: it has. So has a NaN.
+struct FindSeen {
+  static CATOPTRIC_INLINE void run(const Question& question, const std::uint32_t*& corners, unsigned& seen) {
+    Eight x[3], y[3];
+    for (int k = 0; k < 3; ++k) {
+      Eight columns[3];
+      core::gatherTriples(&question.screen.data()->x, corners + k, 3, columns);
+      x[k] = columns[0], y[k] = columns[1];
+    }
+    const Eight area = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]),
+                sum = x[0] + x[1] + x[2];
+    const EightInts isNan = ~((sum >= 0.0f) | (sum < 0.0f)), isTurnedAway = area * question.facing < 0.0f;
+    Eight firstX, lastX, firstY, lastY;
+    findCentres(x, question.lower.x, question.upper.x, firstX, lastX);
+    findCentres(y, question.lower.y, question.upper.y, firstY, lastY);
+    const EightInts isEmpty = (lastX < firstX) | (lastY < firstY),
+                    isOne = (firstX == lastX) & (firstY == lastY);
+    const Eight turn = area < 0.0f ? Eight{} - 1.0f : Eight{} + 1.0f;
+    const EightInts isMissed = isOne & isOutside(x, y, turn, firstX + 0.5f, firstY + 0.5f);
+    seen = toBits(isNan | ~(isTurnedAway | isEmpty | isMissed));
+  }
+};
+
+/// Of triangles [begin, end), eight at a time. How many were dropped.
+std::size_t dropUnseenRun(const Question& question, std::span<const std::uint32_t> indices, std::size_t begin,
+                          std::size_t end, std::span<std::uint8_t> isKept) {
+  std::size_t dropped = 0;
+  for (std::size_t t = begin; t < end; t += kLanes) {
+    const std::size_t count = std::min(end - t, std::size_t(kLanes));
+    if (std::all_of(&isKept[t], &isKept[t] + count, [](std::uint8_t kept) { return kept == 0; })) continue;
+    std::uint32_t few[3 * kLanes] = {};
+    const std::uint32_t* corners = &indices[3 * t];
+    if (count < std::size_t(kLanes)) {
+      std::copy_n(corners, 3 * count, few);
+      corners = few;
+    }
+    unsigned seen = 0;
+    core::runOnWidestVectors<FindSeen>(question, corners, seen);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto isSeen = std::uint8_t(seen >> i & 1u);
+      dropped += isKept[t + i] & (isSeen ^ 1u);
+      isKept[t + i] &= isSeen;
+    }
+  }
+  return dropped;
 }
 
 }  // namespace
@@ -93,21 +165,22 @@ std::size_t dropUnseenTriangles(const raster::TessellatedObjects& objects, const
                                 std::span<const vec3> screen, std::span<std::uint8_t> isKept) {
   const vec2 lower(bounds.x, bounds.y), upper = lower + vec2(bounds.width, bounds.height);
   std::atomic<std::size_t> dropped{0};
-  for (const raster::TessellatedPart& part : objects.parts) {
-    const float facing = world.parts[part.part].isSeenFromBehind ? 0.0f : view.windingFlipped ? -1.0f : 1.0f;
-    core::parallelFor(part.indexCount / 3, kTrianglesPerTask, [&](std::size_t begin, std::size_t end) {
-      std::size_t count = 0;
-      for (std::size_t t = part.firstIndex / 3 + begin; t < part.firstIndex / 3 + end; ++t) {
-        if (!isKept[t]) continue;
-        const std::uint32_t* v = &objects.indices[3 * t];
-        if (mayBeSeen({vec2(screen[v[0]]), vec2(screen[v[1]]), vec2(screen[v[2]])}, facing, lower, upper))
-          continue;
-        isKept[t] = 0;
-        ++count;
-      }
-      dropped += count;
-    });
-  }
+  const auto endOf = [](const raster::TessellatedPart& part) {
+    return std::size_t(part.firstIndex + part.indexCount) / 3;
+  };
+  core::parallelFor(isKept.size(), kTrianglesPerTask, [&](std::size_t begin, std::size_t end) {
+    auto part = std::partition_point(objects.parts.begin(), objects.parts.end(),
+                                     [&](const raster::TessellatedPart& p) { return endOf(p) <= begin; });
+    std::size_t count = 0;
+    for (std::size_t t = begin; t < end && part != objects.parts.end(); t = endOf(*part++)) {
+      const float facing = world.parts[part->part].isSeenFromBehind ? 0.0f
+                           : view.windingFlipped                    ? -1.0f
+                                                                    : 1.0f;
+      count += dropUnseenRun({screen, facing, lower, upper}, objects.indices, t, std::min(end, endOf(*part)),
+                             isKept);
+    }
+    dropped += count;
+  });
   return dropped;
 }
 

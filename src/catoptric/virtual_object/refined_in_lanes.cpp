@@ -4,7 +4,7 @@
 //
 //   1. Surely hidden by the mirror? Then no search.
 //   2. The others are searched together (lane_search.h).
-//   3. What is not easy goes to the double search, from its own seed.
+//   3. What is not easy goes to the double search, from where it was found last or from its own seed.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -84,7 +84,8 @@ void VirtualObjectSolver::solveGroup(const VertexSink& sink, std::size_t first, 
   forEachLane(group.found, [&](std::size_t lane) { write(lane, (group.isOutside >> lane & 1u) != 0); });
   if (places != nullptr)
     for (std::size_t lane = 0; lane < count; ++lane) {
-      const bool isFound = (group.found >> lane & 1u) != 0;
+      const bool isFound = (group.found >> lane & 1u) != 0, isHard = (group.hard >> lane & 1u) != 0;
+      if (isHard) continue;
       places->triangles[first + lane] = isFound ? group.triangle[lane] : -1;
       places->u[first + lane] = group.u[lane], places->v[first + lane] = group.v[lane];
     }
@@ -96,12 +97,25 @@ void VirtualObjectSolver::solveGroup(const VertexSink& sink, std::size_t first, 
       write(lane, true);
   });
   // 3
-  forEachLane(group.hard, [&](std::size_t lane) {
-    const dvec3 point(sink.scenePoints[first + lane]);
+  forEachLane(group.hard, [&](std::size_t lane) { solveHard(sink, first + lane); });
+}
+
+void VirtualObjectSolver::solveHard(const VertexSink& sink, std::size_t i) const {
+  const dvec3 point(sink.scenePoints[i]);
+  LanePlaces* places = sink.places;
+  std::optional<VirtualVertex> vertex;
+  if (places != nullptr && places->triangles[i] >= 0 &&
+      std::size_t(places->triangles[i]) < laneTriangles_.size())
+    vertex = solveFrom({std::uint32_t(places->triangles[i]), places->u[i], places->v[i]}, point);
+  if (!vertex) {
     double nearWeight;
     const dvec2 coords = computeCoords(point, nearWeight);
-    sink.write(first + lane, solveRefined(point, seedMap_.at(coords), nearWeight).checked());
-  });
+    vertex = solveRefined(point, seedMap_.at(coords), nearWeight);
+  }
+  sink.write(i, vertex->checked());
+  if (places == nullptr) return;
+  places->triangles[i] = vertex->kind == VertexKind::Reflected ? std::int32_t(vertex->at.triangle) : -1;
+  places->u[i] = float(vertex->at.u), places->v[i] = float(vertex->at.v);
 }
 
 void VirtualObjectSolver::computeInLanes(const VertexSink& sink, std::size_t begin, std::size_t end) const {

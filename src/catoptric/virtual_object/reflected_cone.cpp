@@ -7,17 +7,38 @@
 namespace catoptric::virtual_object {
 namespace {
 
-double angleBetween(const dvec3& a, const dvec3& b) {
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
+/// ReflectedCone::mayMeet() without an angle for each ball.
+class ConeTest {
+ public:
+  explicit ConeTest(const ReflectedCone& cone)
+      : cone_(cone),
+        meetsAll_(cone.halfAngleRadians >= glm::pi<double>()),
+        isWide_(cone.halfAngleRadians > 0.5 * glm::pi<double>()),
+        sine_(std::sin(cone.halfAngleRadians)),
+        cosine_(std::cos(cone.halfAngleRadians)) {}
+
+  [[nodiscard]] bool mayMeet(const dvec3& ballCentre, double ballRadius) const {
+    if (meetsAll_) return true;
+    const dvec3 offset = ballCentre - cone_.centre;
+    const double distance = glm::length(offset), both = cone_.radius + ballRadius;
+    if (!(distance > both)) return true;
+    const double covered = both / distance;  // the sine of what both balls cover
+    if (isWide_ && covered >= sine_) return true;
+    // The angle from the axis against the half angle and what is covered, by their cosines.
+    return !(glm::dot(offset, cone_.axis) <
+             distance * (cosine_ * std::sqrt(1.0 - covered * covered) - sine_ * covered));
+  }
+
+ private:
+  const ReflectedCone& cone_;
+  bool meetsAll_, isWide_;
+  double sine_, cosine_;
+};
 
 }  // namespace
 
 bool ReflectedCone::mayMeet(const dvec3& ballCentre, double ballRadius) const {
-  const dvec3 offset = ballCentre - centre;
-  const double distance = glm::length(offset), both = radius + ballRadius;
-  if (!(distance > both)) return true;
-  return !(angleBetween(offset, axis) > halfAngleRadians + std::asin(both / distance));
+  return ConeTest(*this).mayMeet(ballCentre, ballRadius);
 }
 
 ReflectedCone makeReflectedCone(const ReflectorMesh& mesh, const ReflectedRays& rays) {
@@ -75,9 +96,10 @@ std::size_t VertexRuns::countLeftOut(std::span<const std::uint8_t> mayReflect) c
 void findReflectedRuns(const VertexRuns& runs, const ReflectedCone& cone, const dmat4& coneFromWorld,
                        std::vector<std::uint8_t>& mayReflect) {
   mayReflect.clear();
+  const ConeTest test(cone);
   for (const VertexRuns::Ball& ball : runs.balls()) {
     const dvec3 centre(coneFromWorld * dvec4(ball.centre, 1.0));
-    mayReflect.push_back(ball.radius >= 0 && cone.mayMeet(centre, ball.radius));
+    mayReflect.push_back(ball.radius >= 0 && test.mayMeet(centre, ball.radius));
   }
 }
 

@@ -9,7 +9,7 @@
 //      middle of the mirror, is at most the cone's half angle and what both balls together cover, asin((r +
 //      R) / distance).
 // Exact in the sense that nothing is lost; a mirror that reflects all around, as a whole sphere does, culls
-// nothing. Cost: one angle for each run.
+// nothing. Cost: two square roots for each run.
 #pragma once
 
 #include <cstdint>

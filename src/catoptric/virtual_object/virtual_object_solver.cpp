@@ -37,6 +37,7 @@ constexpr double kOnSurface = 1e-7;        // of the mesh's radius: a point this
 constexpr double kLongestStep = 0.7;       // of the mesh's radius
 constexpr double kNearlySine = 0.05;       // a root this near is good enough to place a doubly virtual vertex
 constexpr double kOutsideTriangle = 1e-6;  // barycentric slack
+constexpr int kFewSteps = 4;               // where the vertex was seen before is near, or no use
 
 bool isFinite(const dvec3& p) {
   return std::isfinite(p.x + p.y + p.z);
@@ -167,6 +168,26 @@ SurfacePoint VirtualObjectSolver::findSeed(const SeedPixel& seed, double nearWei
   return at;
 }
 
+bool VirtualObjectSolver::isPastBoundary(const SurfacePoint& at) const {
+  return mesh_->triangles()[at.triangle].isSkirt() ||
+         std::min({at.u, at.v, 1.0 - at.u - at.v}) < -kOutsideTriangle;
+}
+
+VirtualVertex VirtualObjectSolver::placeSearched(const SearchResult& found) const {
+  const MirrorLaw& law = found.law;
+  return {eye_ - law.toEye * (law.distanceEye + law.distancePoint), law.position, found.at, found.steps,
+          isPastBoundary(found.at) ? VertexKind::DoublyVirtual : VertexKind::Reflected};
+}
+
+std::optional<VirtualVertex> VirtualObjectSolver::solveFrom(const SurfacePoint& start,
+                                                            const dvec3& scenePoint) const {
+  const SearchResult found = searchReflectionPoint(mesh_->triangles(), start, eye_, scenePoint,
+                                                   std::min(options_.newtonSteps, kFewSteps),
+                                                   options_.tolerance, kLongestStep * mesh_->radius());
+  if (!found.converged) return std::nullopt;
+  return placeSearched(found);
+}
+
 VirtualVertex VirtualObjectSolver::solveRefined(const dvec3& scenePoint, const SeedPixel& seed,
                                                 double nearWeight) const {
   if (mesh_->isConvex())  // nothing behind a convex mirror is reflected: spare the search
@@ -174,21 +195,20 @@ VirtualVertex VirtualObjectSolver::solveRefined(const dvec3& scenePoint, const S
   const SearchResult found =
       searchReflectionPoint(mesh_->triangles(), findSeed(seed, nearWeight), eye_, scenePoint,
                             options_.newtonSteps, options_.tolerance, kLongestStep * mesh_->radius());
-  const MirrorLaw& law = found.law;
-  const bool isPastBoundary =
-      mesh_->triangles()[found.at.triangle].isSkirt() ||
-      std::min({found.at.u, found.at.v, 1.0 - found.at.u - found.at.v}) < -kOutsideTriangle;
-  const VertexKind kind = isPastBoundary ? VertexKind::DoublyVirtual : VertexKind::Reflected;
-  const dvec3 virtualPosition = eye_ - law.toEye * (law.distanceEye + law.distancePoint);
-  if (found.converged) return {virtualPosition, law.position, found.at, found.steps, kind};
+  VirtualVertex vertex = placeSearched(found);
+  if (found.converged) return vertex;
 
+  const MirrorLaw& law = found.law;
   const bool isOnSurface = law.distancePoint <= kOnSurface * mesh_->radius();
-  if (isOnSurface && glm::dot(law.normal, eye_ - law.position) > 0)
-    return {scenePoint, law.position, found.at, found.steps, kind};
+  if (isOnSurface && glm::dot(law.normal, eye_ - law.position) > 0) {
+    vertex.virtualPosition = scenePoint;
+    return vertex;
+  }
   if (const auto hiding = findHidingPoint(scenePoint, false)) return mirrorHidden(*hiding, scenePoint);
   // Not hidden either: only a longer skirt would reflect it, or it is within a map pixel of the shadow.
-  if (!(law.hn > 0 && (isPastBoundary || law.isWithin(kNearlySine)))) return {};
-  return {virtualPosition, law.position, found.at, found.steps, VertexKind::DoublyVirtual};
+  if (!(law.hn > 0 && (isPastBoundary(found.at) || law.isWithin(kNearlySine)))) return {};
+  vertex.kind = VertexKind::DoublyVirtual;
+  return vertex;
 }
 
 VirtualVertex VirtualObjectSolver::solve(Solver solver, const dvec3& scenePoint) const {
@@ -257,9 +277,10 @@ void VirtualObjectSolver::compute(Solver solver, std::span<const vec3> scenePoin
   // threads.
   if (places != nullptr) places->resize(scenePoints.size());
   const VertexSink sink{scenePoints, virtualPositions, kinds, reflectionPoints, places};
+  constexpr std::size_t kRunsPerTask = 4;
   const std::size_t runs = (scenePoints.size() + kRunLength - 1) / kRunLength;
   assert(mayReflect.empty() || mayReflect.size() == runs);
-  core::parallelFor(runs, 1, [&](std::size_t firstRun, std::size_t endRun) {
+  core::parallelFor(runs, kRunsPerTask, [&](std::size_t firstRun, std::size_t endRun) {
     for (std::size_t run = firstRun; run < endRun; ++run) {
       const std::size_t begin = run * kRunLength, end = std::min(begin + kRunLength, scenePoints.size());
       if (!mayReflect.empty() && mayReflect[run] == 0)

@@ -107,8 +107,9 @@ class VirtualObjectSolver {
   void useFinder(std::unique_ptr<PointFinder> finder);
   [[nodiscard]] bool hasFinder() const { return finder_ != nullptr; }
 
-  /// Vertices are solved in runs of this length, each by itself.
-  static constexpr std::size_t kRunLength = 256;
+  /// Vertices are solved in runs of this length, each by itself. Short ones, so that little that no ray comes
+  /// near is kept for what stands in the same run.
+  static constexpr std::size_t kRunLength = 64;
 
   /// All spans have equal length, except that `reflectionPoints` (J, wanted by selectVirtualTriangles()) may
   /// be empty. Parallel, and for convex mirrors in the processor's vectors; the result does not depend on the
@@ -146,10 +147,17 @@ class VirtualObjectSolver {
                                              double nearWeight) const;
   [[nodiscard]] VirtualVertex solveRefined(const dvec3& scenePoint, const SeedPixel& seed,
                                            double nearWeight) const;
+  /// The search from where the vertex was seen before; nothing if that leads nowhere soon.
+  [[nodiscard]] std::optional<VirtualVertex> solveFrom(const SurfacePoint& start,
+                                                       const dvec3& scenePoint) const;
+  [[nodiscard]] bool isPastBoundary(const SurfacePoint& at) const;
+  /// Step 3 of Refined, as if the law were held.
+  [[nodiscard]] VirtualVertex placeSearched(const SearchResult& found) const;
   [[nodiscard]] bool doMapsServe(const dvec3& eye) const;
   void computeInOrder(const VertexSink& sink, std::size_t begin, std::size_t end) const;
   void computeInLanes(const VertexSink& sink, std::size_t begin, std::size_t end) const;
   void solveGroup(const VertexSink& sink, std::size_t first, std::size_t count) const;
+  void solveHard(const VertexSink& sink, std::size_t vertex) const;
   void prepareLanes();
   [[nodiscard]] VirtualVertex solveFound(const dvec3& scenePoint) const;
   [[nodiscard]] std::optional<ReflectionPoint> describeFound(const dvec3& scenePoint) const;

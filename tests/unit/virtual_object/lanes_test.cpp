@@ -169,6 +169,36 @@ TEST(Lanes, whereTheyBeginDecidesNothing) {
   EXPECT_EQ(kinds, kindsAnew);
 }
 
+TEST(Lanes, whatNearlyTouchesBeginsWhereItWasFoundToo) {
+  const ReflectorMesh mesh = meshOf(geometry::makeCylinderSide(0.3, 1.6, 96, 12, false));
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> height(-0.7, 0.7), angle(0, 1.2), gap(1.0002, 1.003);
+  std::vector<vec3> points;
+  for (int i = 0; i < 500; ++i) {
+    const double a = angle(random), r = 0.3 * gap(random);
+    points.emplace_back(mesh.centre() + dvec3(r * std::sin(a), height(random), r * std::cos(a)));
+  }
+  std::vector<vec3> placed(points.size()), placedAnew(points.size());
+  std::vector<VertexKind> kinds(points.size()), kindsAnew(points.size());
+  VirtualObjectSolver solver(mesh, {0.4, 0.9, 2.6}, 20.0);
+  LanePlaces places;
+  solver.compute(Solver::Refined, points, placed, kinds, {}, {}, &places);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    EXPECT_EQ(places.triangles[i] >= 0, kinds[i] == VertexKind::Reflected);
+  for (const dvec3 eye : {dvec3(0.41, 0.9, 2.6), dvec3(1.4, 0.6, 2.2), dvec3(-2.6, 0.4, -0.4)}) {
+    solver.setEye(eye);
+    solver.compute(Solver::Refined, points, placed, kinds, {}, {}, &places);
+    VirtualObjectSolver(mesh, eye, 20.0).compute(Solver::Refined, points, placedAnew, kindsAnew);
+    EXPECT_EQ(kinds, kindsAnew);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (kinds[i] == VertexKind::Reflected) {
+        EXPECT_LT(
+            angleBetween(dvec3(placed[i]) - eye, dvec3(placedAnew[i]) - eye) * pixelsPerRadian(mesh, eye),
+            0.05);
+      }
+  }
+}
+
 TEST(Lanes, nothingFiniteComesOfNothing) {
   const ReflectorMesh mesh = meshOf(geometry::makeIcosphere(0.5, 8));
   const VirtualObjectSolver solver(mesh, {0, 1, 2}, 6.0);

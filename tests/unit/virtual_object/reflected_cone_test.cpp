@@ -88,6 +88,25 @@ TEST(VertexRuns, BallsHoldTheTrianglesThatTouchThem) {
             4);  // of 12.7 for all: neighbours in the array are neighbours in space
 }
 
+TEST(ReflectedCone, MeetsBallsAsAnglesSay) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> half(0.0, 3.3), size(0.0, 1.5), far(0.1, 6.0);
+  int met = 0, missed = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const ReflectedCone cone{randomDirection(random), size(random), randomDirection(random), half(random)};
+    const double radius = size(random), both = cone.radius + radius;
+    const dvec3 offset = far(random) * randomDirection(random);
+    const double distance = glm::length(offset);
+    const double angle = std::acos(std::clamp(glm::dot(offset, cone.axis) / distance, -1.0, 1.0));
+    const double reach = cone.halfAngleRadians + (distance > both ? std::asin(both / distance) : 4.0);
+    if (std::abs(angle - reach) < 1e-9) continue;
+    EXPECT_EQ(cone.mayMeet(cone.centre + offset, radius), angle <= reach) << i;
+    (angle <= reach ? met : missed)++;
+  }
+  EXPECT_GT(met, 500);
+  EXPECT_GT(missed, 500);
+}
+
 TEST(VertexRuns, CountsWhatIsLeftOut) {
   raster::TessellatedObjects objects;
   objects.positions.resize(25);

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pixels of a mirror before and after its triangles are drawn (number_raster.h, step 3), eight at a time.
+#pragma once
+
+#include "catoptric/core/math.h"
+#include "catoptric/virtual_object/number_raster.h"
+
+namespace catoptric::virtual_object {
+
+/// From a pixel to the ray through it, and from 1 / w to depth.
+struct PixelRays {
+  vec3 corner, stepX, stepY;  ///< draw space, a step along the camera's axis long
+  float depth, depthStep;
+
+  explicit PixelRays(const NumberPicture& picture);
+};
+
+/// Empties rows [begin, end), with the largest 1 / w that lies behind the mirror as their limits; -1 where
+/// the mirror is not.
+void beginRows(const NumberPicture& picture, const PixelRays& rays, int begin, int end,
+               const NumberRaster::Rows& rows);
+
+/// Rows [begin, end) as hits and, where they are asked for, depths.
+void finishRows(const NumberPicture& picture, const PixelRays& rays, int begin, int end,
+                const NumberRaster::Rows& rows, NumberImage& image);
+
+}  // namespace catoptric::virtual_object
