@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // virtual_shade.frag for eight pixels side by side: the functions are the shaders' own, what they read from
-// GL is here. Used by lane_shading.cpp alone.
+// GL is here. Used by shade_bands.cpp alone.
 #pragma once
 
 #include <array>
@@ -17,9 +17,10 @@ struct LaneShader {
   using vec4 = core::lanes::Vec4;
   using uint = std::uint32_t;
   using sampler2D = const raster::LaneTexture*;
-  struct uvec4 {
+  struct Corners {
     core::EightInts x, y, z, w;
   };
+  using uvec4 = Corners;
   vec4 m_baseColor, m_emissive, m_factors;
   catoptric::vec4 m_more, u_lobes;
   std::array<catoptric::vec4, 10> m_uvRows;

@@ -2,278 +2,25 @@
 #include "catoptric/virtual_object/lane_shading.h"
 
 #include <algorithm>
-#include <bit>
+#include <utility>
 
 #include "catoptric/core/parallel.h"
-#include "catoptric/virtual_object/lane_shader.h"
 
 namespace catoptric::virtual_object {
 
-namespace lanes = core::lanes;
-using core::kLanes;
-
 namespace {
 
-constexpr std::uint32_t kInsideBit = 0x40000000u;  // shaders/raster/level_pixels.glsl
-constexpr float kSkyPath = 1.0e30f;
+constexpr int kBandsPerThread = 8;
 
-void setUniforms(const LaneShading::Job& job, LaneShader& s) {
-  s.u_environment = &job.environment;
-  s.u_environmentMaxLod = job.environment.lastLevel();
-  for (std::size_t i = 0; i < 9; ++i) s.u_irradiance[i] = job.frame.scene.environment().irradiance[i];
-  s.u_vertices = job.triangles.vertexTexels().data();
-  for (std::size_t i = 0; i + 3 < job.lights.size(); i += 4) {
-    const vec4 *light = &job.lights[i], &a = light[0], &b = light[1], &c = light[2];
-    LaneShader::PunctualLight& to = s.lights[std::size_t(s.lightCount++)];
-    to.color = vec3(a), to.position = vec3(b), to.direction = vec3(c);
-    to.kind = int(a.w);
-    to.range = b.w, to.cosInner = c.w, to.cosOuter = light[3].x;
-  }
-}
-
-void setPart(const LaneShading::Job& job, std::uint32_t index, LaneShader& s) {
-  const raster::SceneBuffers& scene = job.frame.scene;
-  const scene::WorldGeometry& world = scene.geometry();
-  const scene::Part& part = world.parts[index];
-  const raster::MaterialBlock block = scene.materialBlock(part.material);
-  s.m_baseColor = block.baseColor, s.m_emissive = block.emissive, s.m_factors = block.factors;
-  s.m_more = block.more;
-  std::copy_n(block.uvRows, s.m_uvRows.size(), s.m_uvRows.begin());
-  const auto maps = scene.laneTextures(part.material);
-  s.u_baseColor = maps[0], s.u_metallicRoughness = maps[1], s.u_normalMap = maps[2];
-  s.u_occlusion = maps[3], s.u_emissive = maps[4];
-  s.textures = 0;
-  for (unsigned slot = 0; slot < maps.size(); ++slot) s.textures |= maps[slot] ? 1u << slot : 0u;
-  s.blurred = maps[1] ? nullptr : job.environment.findBlurred(block.factors.x);
-  const unsigned attributes = job.triangles.attributes(index);
-  s.isColored = (attributes & kWithColors) != 0;
-  s.isTwiceMapped = (attributes & kWithSecondUv) != 0;
-  s.isLastMirror = job.isLast && part.reflector != core::kNoId;
-  const raster::PartConstants constants = raster::findPartConstants(scene, index, &job.chain);
-  s.u_objectWord = constants.objectWord, s.u_reflectorWord = constants.reflectorWord;
-  s.u_lobes = constants.lobes;
-}
-
-}  // namespace
-
-/// The pixels of one band.
-struct ShadeBand {
-  const LaneShading::Job& job;
-  LaneShading& images;
-  LaneShader& s;
-  int width, height;  ///< of the bounds
-  const uvec2* ids;   ///< of the first pixel of the bounds
-  std::size_t idsStride;
-  vec3 absorption;
-
-  /// Eight pixels and their neighbours on the same mirror.
-  struct Pixels {
-    std::uint32_t at[kLanes], besideX[kLanes], besideY[kLanes];
-    lanes::Float signX, signY;
-    int count;
-  };
-
-  CATOPTRIC_INLINE void findNeighbours(const std::uint32_t* list, std::size_t count, Pixels& p) const {
-    p.count = int(std::min<std::size_t>(count, kLanes));
-    const std::uint32_t word = job.chain.parentWord();
-    for (int i = 0; i < kLanes; ++i) {
-      const std::uint32_t pixel = list[std::min(i, p.count - 1)];
-      const int x = int(pixel & 0xffffu), y = int(pixel >> 16u);
-      const auto at = std::uint32_t(y * width + x);
-      const uvec2* id = ids + std::size_t(y) * idsStride + x;
-      p.at[i] = p.besideX[i] = p.besideY[i] = at;
-      p.signX.v[i] = p.signY.v[i] = 1.0f;
-      if (x + 1 < width && id[1].y == word)
-        p.besideX[i] = at + 1;
-      else if (x > 0 && id[-1].y == word)
-        p.besideX[i] = at - 1, p.signX.v[i] = -1.0f;
-      if (y + 1 < height && id[idsStride].y == word)
-        p.besideY[i] = at + std::uint32_t(width);
-      else if (y > 0 && (id - idsStride)->y == word)
-        p.besideY[i] = at - std::uint32_t(width), p.signY.v[i] = -1.0f;
-    }
-  }
-
-  CATOPTRIC_INLINE static lanes::Vec4 load(const std::vector<vec4>& image,
-                                           const std::uint32_t (&at)[kLanes]) {
-    const vec4* rows[kLanes];
-    for (int i = 0; i < kLanes; ++i) rows[i] = image.data() + at[i];
-    return lanes::loadRows(rows);
-  }
-
-  CATOPTRIC_INLINE static lanes::Float loadLast(const std::vector<vec4>& image,
-                                                const std::uint32_t (&at)[kLanes]) {
-    lanes::Float w;
-    for (int i = 0; i < kLanes; ++i) w.v[i] = image[at[i]].w;
-    return w;
-  }
-
-  CATOPTRIC_INLINE lanes::Vec3 loadDirection(const std::uint32_t (&at)[kLanes]) const {
-    return s.directionFromOctahedral({loadLast(images.radiances_, at), loadLast(images.weights_, at)});
-  }
-
-  CATOPTRIC_INLINE lanes::Mask loadInside(const Pixels& p) const {
-    lanes::Mask isInside;
-    for (int i = 0; i < kLanes; ++i) {
-      const std::uint32_t y = p.at[i] / std::uint32_t(width), x = p.at[i] - y * std::uint32_t(width);
-      isInside.v[i] = (ids[y * idsStride + x].x & kInsideBit) != 0 ? -1 : 0;
-    }
-    return isInside;
-  }
-
-  struct Seen {
-    lanes::Vec3 radiance, position, weight{1.0f}, direction{0.0f};
-    lanes::Float path;
-    lanes::Mask isInside{false};
-  };
-
-  CATOPTRIC_INLINE void store(const Pixels& p, const Seen& seen, bool isMirror, uvec2 word) {
-    if (job.frame.addsTo) {
-      const lanes::Vec4 before = load(images.radiances_, p.at), weight = load(images.weights_, p.at);
-      const lanes::Vec3 sum = lanes::Vec3(before) + lanes::Vec3(weight) * seen.radiance;
-      for (int i = 0; i < p.count; ++i) {
-        vec4& pixel = images.radiances_[p.at[i]];
-        pixel.x = sum.x.v[i], pixel.y = sum.y.v[i], pixel.z = sum.z.v[i];
-      }
-      return;
-    }
-    lanes::Vec2 octahedral(0.0f);
-    if (isMirror) octahedral = s.octahedralFromDirection(seen.direction);
-    const unsigned inside = core::toBits(seen.isInside.v);
-    for (int i = 0; i < p.count; ++i) {
-      const std::uint32_t at = p.at[i];
-      images.nextRadiances_[at] =
-          vec4(seen.radiance.x.v[i], seen.radiance.y.v[i], seen.radiance.z.v[i], octahedral.x.v[i]);
-      if (!images.nextPositions_.empty())
-        images.nextPositions_[at] =
-            vec4(seen.position.x.v[i], seen.position.y.v[i], seen.position.z.v[i], seen.path.v[i]);
-      if (isMirror && !images.nextWeights_.empty())
-        images.nextWeights_[at] =
-            vec4(seen.weight.x.v[i], seen.weight.y.v[i], seen.weight.z.v[i], octahedral.y.v[i]);
-      if (!images.nextIds_.empty())
-        images.nextIds_[at] = uvec2(word.x | ((inside >> i & 1u) != 0 ? kInsideBit : 0u), word.y);
-    }
-  }
-
-  CATOPTRIC_INLINE void shadeSky(const Pixels& p) {
-    const lanes::Vec3 d = loadDirection(p.at);
-    Seen seen;
-    seen.radiance = s.lookUpEnvironment(d, (loadDirection(p.besideX) - d) * p.signX,
-                                        (loadDirection(p.besideY) - d) * p.signY);
-    seen.position = d;
-    seen.path = kSkyPath;
-    store(p, seen, false, uvec2(0u, job.chain.id << 16u));
-  }
-
-  CATOPTRIC_INLINE void shadePart(const Pixels& p, bool isMirror) {
-    LaneShader::PixelRay ray;
-    const lanes::Vec4 place = load(images.positions_, p.at);
-    ray.origin = lanes::Vec3(place);
-    ray.originDx = (lanes::Vec3(load(images.positions_, p.besideX)) - ray.origin) * p.signX;
-    ray.originDy = (lanes::Vec3(load(images.positions_, p.besideY)) - ray.origin) * p.signY;
-    ray.direction = loadDirection(p.at);
-    ray.directionDx = (loadDirection(p.besideX) - ray.direction) * p.signX;
-    ray.directionDy = (loadDirection(p.besideY) - ray.direction) * p.signY;
-
-    LaneShader::uvec4 corners;
-    lanes::Float drawn;
-    for (int i = 0; i < kLanes; ++i) {
-      const uvec2 hit = job.hits.hits[p.at[i]];
-      const uvec4& triangle = job.triangles.triangleTexels()[hit.x - 1u];
-      corners.x[i] = std::int32_t(triangle.x), corners.y[i] = std::int32_t(triangle.y);
-      corners.z[i] = std::int32_t(triangle.z), corners.w[i] = std::int32_t(triangle.w);
-      drawn.v[i] = std::bit_cast<float>(hit.y);
-    }
-    using lanes::Vec3;
-    Vec3 a(s.readVertex(corners.x, 0));
-    const Vec3 e1 = Vec3(s.readVertex(corners.y, 0)) - a, e2 = Vec3(s.readVertex(corners.z, 0)) - a;
-    a -= ray.origin;
-    LaneShader::RayHit hit = s.meetTriangle(ray.direction, 0.0f, a, a + e1, a + e2, cross(e1, e2));
-    if (job.hits.fromEye) drawn = drawn - place.w;
-    hit = s.keepNear(hit, max(drawn, 0.0f));
-    hit.isFront = hit.isFront || lanes::Mask((corners.w & 1) != 0);
-    const LaneShader::SurfacePoint point = s.makeSurfacePoint(ray, corners, hit, e1, e2);
-    const lanes::Vec4 base = s.readBaseColor(point);
-    const LaneShader::ShadedPoint shaded = s.shadePoint(point, s.shadingNormal(point), Vec3(base));
-    Seen seen;
-    seen.radiance = shaded.radiance;
-    seen.position = point.position;
-    seen.path = place.w + hit.t;
-    lanes::Mask isInside(false);
-    if (job.hasSolids) {
-      isInside = loadInside(p);
-      const Vec3 left = choose(isInside, s.absorbLight(absorption, hit.t), Vec3(1.0f));
-      seen.radiance *= left;
-      seen.weight = left;
-    }
-    if (isMirror) {
-      seen.weight *= shaded.weight;
-      seen.direction = shaded.mirrorDirection;
-      seen.isInside = s.isInsideBehind(shaded, point.isFront, isInside);
-    }
-    store(p, seen, isMirror, uvec2(s.u_objectWord, s.u_reflectorWord));
-  }
-
-  static CATOPTRIC_INLINE void run(ShadeBand& self, const LaneShading::Band& band) {
-    const scene::WorldGeometry& world = self.job.frame.scene.geometry();
-    for (const LaneShading::Run& run : band.runs) {
-      const bool isSky = run.part == world.parts.size();
-      const bool isMirror = !isSky && !self.job.isLast && world.parts[run.part].reflector != core::kNoId;
-      if (!isSky) setPart(self.job, run.part, self.s);
-      for (std::size_t i = 0; i < run.count; i += std::size_t(kLanes)) {
-        Pixels pixels;
-        self.findNeighbours(band.pixels.data() + run.first + i, run.count - i, pixels);
-        if (isSky)
-          self.shadeSky(pixels);
-        else
-          self.shadePart(pixels, isMirror);
-      }
-    }
-  }
-};
-
-void LaneShading::readParent(const raster::Level& parent, const gl::Scissor& bounds) {
-  bounds_ = bounds;
-  const std::size_t count = std::size_t(bounds.width) * std::size_t(bounds.height);
-  int attachment = 0;
-  for (std::vector<vec4>* image : {&radiances_, &positions_, &weights_}) {
-    image->resize(count);
-    parent.surfaces.readPixels(attachment++, bounds, std::span<vec4>(*image));
-  }
-}
-
-void LaneShading::readTarget(const raster::Level& target) {
-  const std::size_t count = positions_.size();
-  const bool isMirrors = !target.isLast;
-  const auto read = [&](int attachment, bool isWanted, auto& image) {
-    image.resize(isWanted ? count : 0);
-    if (isWanted) target.surfaces.readPixels(attachment, bounds_, std::span(image));
-  };
-  read(0, true, nextRadiances_);
-  read(1, isMirrors || target.withSeen, nextPositions_);
-  read(2, isMirrors, nextWeights_);
-  read(3, isMirrors || target.withIds || target.withSeen, nextIds_);
-}
-
-void LaneShading::writeTarget(raster::Level& target) {
-  const auto write = [&](gl::Texture& texture, const auto& image) {
-    if (!image.empty()) texture.uploadRect(bounds_.x, bounds_.y, bounds_.width, bounds_.height, image.data());
-  };
-  write(target.radiance, nextRadiances_);
-  write(target.position, nextPositions_);
-  write(target.weight, nextWeights_);
-  write(target.ids, nextIds_);
-}
-
-/// Step 1.
-void LaneShading::sortPixels(const Job& job, std::size_t begin, std::size_t end, Band& band) const {
-  const std::size_t width = std::size_t(bounds_.width), stride = std::size_t(job.frame.camera.widthPx);
+/// Step 1, of rows [begin, end).
+void sortPixels(const LaneJob& job, std::size_t begin, std::size_t end, LaneBand& band) {
+  const auto width = std::size_t(job.images.bounds.width);
   const std::uint32_t word = job.chain.parentWord();
   const auto sky = std::uint32_t(job.frame.scene.geometry().parts.size());
   const std::span<const uvec4> triangles = job.triangles.triangleTexels();
   const auto forPixels = [&](const auto& of) {
     for (std::size_t y = begin; y < end; ++y) {
-      const uvec2* ids = &job.frame.parentIds[(std::size_t(bounds_.y) + y) * stride + std::size_t(bounds_.x)];
+      const uvec2* ids = job.ids + y * std::size_t(job.images.levelWidthPx);
       for (std::size_t x = 0; x < width; ++x) {
         if (ids[x].y != word) continue;
         const std::uint32_t number = job.hits.hits[y * width + x].x;
@@ -297,45 +44,72 @@ void LaneShading::sortPixels(const Job& job, std::size_t begin, std::size_t end,
   for (const std::uint32_t part : band.partsSeen) band.counts[part] = 0;
 }
 
+}  // namespace
+
+void LaneShading::readParent(const raster::Level& parent, const gl::Scissor& bounds) {
+  images_.bounds = bounds;
+  images_.levelWidthPx = parent.widthPx;
+  int attachment = 0;
+  for (std::vector<vec4>* image : {&images_.radiances, &images_.positions, &images_.weights}) {
+    image->resize(std::max(image->size(), images_.pixelCount()));
+    parent.surfaces.readPixels(attachment++, bounds, std::span<vec4>(*image));
+  }
+}
+
+void LaneShading::readTarget(const raster::Level& target) {
+  const std::size_t count = images_.pixelCount();
+  const bool isMirrors = !target.isLast;
+  const auto read = [&](int attachment, bool isWanted, auto& image) {
+    image.resize(isWanted ? count : 0);
+    if (isWanted) target.surfaces.readPixels(attachment, images_.bounds, std::span(image));
+  };
+  read(0, true, images_.nextRadiances);
+  read(1, isMirrors || target.withSeen, images_.nextPositions);
+  read(2, isMirrors, images_.nextWeights);
+  read(3, isMirrors || target.withIds || target.withSeen, images_.nextIds);
+}
+
+void LaneShading::writeTarget(raster::Level& target) {
+  const gl::Scissor& b = images_.bounds;
+  const auto write = [&](gl::Texture& texture, const auto& image) {
+    if (!image.empty()) texture.uploadRect(b.x, b.y, b.width, b.height, image.data());
+  };
+  write(target.radiance, images_.nextRadiances);
+  write(target.position, images_.nextPositions);
+  write(target.weight, images_.nextWeights);
+  write(target.ids, images_.nextIds);
+}
+
 void LaneShading::shade(raster::FrameContext& frame, const raster::Chain& chain,
-                        const SceneTriangles& triangles, const Hits& hits, raster::Level& target) {
+                        const SceneTriangles& triangles, const LaneHits& hits, raster::Level& target) {
   const scene::WorldGeometry& world = frame.scene.geometry();
-  const Job job{.frame = frame,
-                .chain = chain,
-                .triangles = triangles,
-                .hits = hits,
-                .images = *this,
-                .isLast = target.isLast,
-                .hasSolids = std::any_of(world.reflectors.begin(), world.reflectors.end(),
-                                         [](const scene::Reflector& r) { return r.isRefractor(); }),
-                .environment = frame.scene.laneEnvironment(),
-                .lights = frame.scene.packLights()};
+  const gl::Scissor& b = images_.bounds;
+  const LaneJob job{
+      .frame = frame,
+      .chain = chain,
+      .triangles = triangles,
+      .hits = hits,
+      .images = images_,
+      .ids = &frame.parentIds[std::size_t(b.y) * std::size_t(images_.levelWidthPx) + std::size_t(b.x)],
+      .isLast = target.isLast,
+      .hasSolids = std::any_of(world.reflectors.begin(), world.reflectors.end(),
+                               [](const scene::Reflector& r) { return r.isRefractor(); }),
+      .environment = frame.scene.laneEnvironment(),
+      .lights = frame.scene.packLights()};
   if (!frame.addsTo) readTarget(target);
-  const auto height = std::size_t(bounds_.height), stride = std::size_t(frame.camera.widthPx);
-  const std::size_t bands = std::min(height, std::size_t(8 * core::threadCount()));
+  const auto height = std::size_t(b.height);
+  const std::size_t bands = std::min(height, std::size_t(kBandsPerThread * core::threadCount()));
   bands_.resize(std::max(bands_.size(), bands));
   core::parallelFor(bands, 1, [&](std::size_t begin, std::size_t end) {
-    LaneShader shader;
-    setUniforms(job, shader);
-    ShadeBand self{job,
-                   *this,
-                   shader,
-                   bounds_.width,
-                   bounds_.height,
-                   &frame.parentIds[std::size_t(bounds_.y) * stride + std::size_t(bounds_.x)],
-                   stride,
-                   raster::findAbsorption(chain, world)};
-    for (std::size_t b = begin; b < end; ++b) {
-      sortPixels(job, b * height / bands, (b + 1) * height / bands, bands_[b]);
-      core::runOnWidestVectors<ShadeBand>(self, bands_[b]);
-    }
+    for (std::size_t i = begin; i < end; ++i)
+      sortPixels(job, i * height / bands, (i + 1) * height / bands, bands_[i]);
+    shadeBands(job, std::span(bands_).subspan(begin, end - begin));
   });
-  if (frame.addsTo) {
-    frame.addsTo->radiance.uploadRect(bounds_.x, bounds_.y, bounds_.width, bounds_.height, radiances_.data());
-    frame.hasAdded = true;
-  } else {
+  frame.hasAdded = frame.addsTo != nullptr;
+  if (frame.addsTo)
+    frame.addsTo->radiance.uploadRect(b.x, b.y, b.width, b.height, images_.radiances.data());
+  else
     writeTarget(target);
-  }
 }
 
 }  // namespace catoptric::virtual_object

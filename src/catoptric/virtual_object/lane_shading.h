@@ -20,55 +20,73 @@
 
 namespace catoptric::virtual_object {
 
+/// Triangle + 1 at each pixel of a mirror's bounds, row by row, 0: none; bits of the distance to it.
+struct LaneHits {
+  std::span<const uvec2> hits;
+  bool fromEye;  ///< is it the length of the path from the eye, or from the mirror?
+};
+
+/// What the levels hold within a mirror's bounds, row by row.
+struct LaneImages {
+  gl::Scissor bounds;
+  int levelWidthPx = 0;
+  std::vector<vec4> positions, radiances, weights;  ///< of the level before; as large as the largest mirror
+  std::vector<vec4> nextRadiances, nextPositions, nextWeights;  ///< of the next one; empty: not wanted
+  std::vector<uvec2> nextIds;
+
+  [[nodiscard]] std::size_t pixelCount() const {
+    return std::size_t(bounds.width) * std::size_t(bounds.height);
+  }
+};
+
+/// Some rows, and their pixels of the mirror sorted by the part that is seen there.
+struct LaneBand {
+  /// `part`: the number of parts where nothing but the environment is seen.
+  struct Run {
+    std::uint32_t part, first, count;
+  };
+  std::vector<Run> runs;
+  std::vector<std::uint32_t> pixels;             ///< x | y << 16 within the bounds
+  std::vector<std::uint32_t> counts, partsSeen;  ///< scratch
+};
+
+/// What all bands of a mirror share.
+struct LaneJob {
+  const raster::FrameContext& frame;
+  const raster::Chain& chain;
+  const SceneTriangles& triangles;
+  const LaneHits& hits;
+  LaneImages& images;
+  const uvec2*
+      ids;         ///< of the level before, at the first pixel of the bounds; rows are as long as the level's
+  bool isLast;     ///< Level::isLast of the next level
+  bool hasSolids;  ///< light may be absorbed on its way
+  const raster::LaneEnvironment& environment;
+  std::vector<vec4> lights;
+};
+
+/// Step 2. Adds to the radiances where frame.addsTo says so, else writes the next level's images.
+void shadeBands(const LaneJob& job, std::span<const LaneBand> bands);
+
 class LaneShading {
  public:
   /// Reads what shade() needs of the level before; `bounds`: of the mirror.
   void readParent(const raster::Level& parent, const gl::Scissor& bounds);
   /// Points on the mirror, row by row of the bounds; w: length of the path to them.
-  [[nodiscard]] std::span<const vec4> positions() const { return positions_; }
+  [[nodiscard]] std::span<const vec4> positions() const {
+    return std::span(images_.positions).first(images_.pixelCount());
+  }
 
-  /// Triangle + 1 at each pixel of the bounds, 0: none; bits of the distance to it.
-  struct Hits {
-    std::span<const uvec2> hits;
-    bool fromEye;  ///< is it the length of the path from the eye, or from the mirror?
-  };
   /// Adds to frame.addsTo, or writes `target`, at the pixels of the chain's mirror.
   void shade(raster::FrameContext& frame, const raster::Chain& chain, const SceneTriangles& triangles,
-             const Hits& hits, raster::Level& target);
-
-  /// Pixels of one part; `part` is the number of parts where nothing but the environment is seen.
-  struct Run {
-    std::uint32_t part, first, count;
-  };
-  /// Some rows, and their pixels of the mirror sorted by part: x | y << 16 within the bounds.
-  struct Band {
-    std::vector<std::uint32_t> counts, partsSeen, pixels;
-    std::vector<Run> runs;
-  };
-  /// What all bands share.
-  struct Job {
-    raster::FrameContext& frame;
-    const raster::Chain& chain;
-    const SceneTriangles& triangles;
-    const Hits& hits;
-    LaneShading& images;
-    bool isLast;
-    bool hasSolids;  ///< light may be absorbed on its way
-    const raster::LaneEnvironment& environment;
-    std::vector<vec4> lights;
-  };
+             const LaneHits& hits, raster::Level& target);
 
  private:
-  friend struct ShadeBand;
-  void sortPixels(const Job& job, std::size_t begin, std::size_t end, Band& band) const;
   void readTarget(const raster::Level& target);
   void writeTarget(raster::Level& target);
 
-  gl::Scissor bounds_;
-  std::vector<vec4> positions_, radiances_, weights_;  ///< of the level before
-  std::vector<vec4> nextRadiances_, nextPositions_, nextWeights_;
-  std::vector<uvec2> nextIds_;
-  std::vector<Band> bands_;
+  LaneImages images_;
+  std::vector<LaneBand> bands_;
 };
 
 }  // namespace catoptric::virtual_object
