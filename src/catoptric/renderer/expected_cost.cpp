@@ -10,9 +10,9 @@ namespace catoptric::renderer {
 namespace {
 
 // What composing the frame takes is part of each first constant.
-constexpr double kMapMs = 1.5, kMapPixelMs = 1.6e-4;
-constexpr double kRefinedMs = 6.7, kRefinedPixelMs = 2.0e-4, kRefinedTriangleMs = 1.2e-5;
-constexpr double kExactMs = 4.9, kExactPixelMs = 4.3e-4, kExactOfferedMs = 7.2e-4;
+constexpr double kMapMs = 0.9, kMapPixelMs = 1.5e-4;
+constexpr double kRefinedMs = 2.3, kRefinedPixelMs = 1.2e-4, kRefinedTriangleMs = 2.4e-5;
+constexpr double kExactMs = 2.6, kExactPixelMs = 2.3e-4, kExactOfferedMs = 4.9e-4;
 constexpr double kPartsMs = 6, kPartsPixelMs = 5e-5;
 
 constexpr double kStart = 1e-4;        // of the mirror's radius: a ray does not meet where it starts

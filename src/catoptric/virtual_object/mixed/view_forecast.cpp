@@ -17,7 +17,7 @@ constexpr double kNearFocus = 0.25;    // of the focal distance
 constexpr double kBack = 1e-3;         // of the mirror's radius: a search that ends this near is back
 constexpr double kStart = 1e-4;        // of the mirror's radius: a ray does not meet where it starts
 constexpr double kInPartsMs = 6.0, kPartMs = 3.0, kConvexVertexMs = 2.5e-4, kSeedMs = 4e-4, kSearchMs = 4e-4,
-                 kBoundPixelMs = 2.0e-4;
+                 kBoundPixelMs = 1.1e-4;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 enum class Fate : std::uint8_t { Before, Between, Beyond, NearFocus, Self };
