@@ -18,13 +18,14 @@ CATOPTRIC_FN vec3 lookUpEnvironment(vec3 direction, vec3 dx, vec3 dy) {
   return fine;
 }
 
-#ifndef CATOPTRIC_LANES
-vec3 lookUpPrefiltered(vec3 direction, float roughness) {
+CATOPTRIC_FN vec3 lookUpPrefiltered(vec3 direction, float roughness) {
   vec2 uv = latLongFromDirection(direction);
+#ifdef CATOPTRIC_LANES
+  if (hasBlurred()) return readBlurred(uv);  // the two layers of the material's roughness, blended once
+#endif
   float layer = clamp(roughness, 0.0f, 1.0f) * u_prefilteredLast;
   float lower = floor(layer);
   vec3 fine = vec3(textureLod(u_prefiltered, vec3(uv, lower), 0.0f));
   vec3 coarse = vec3(textureLod(u_prefiltered, vec3(uv, min(lower + 1.0f, u_prefilteredLast)), 0.0f));
   return mix(fine, coarse, layer - lower);
 }
-#endif

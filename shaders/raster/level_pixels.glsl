@@ -24,6 +24,12 @@ CATOPTRIC_FN vec3 directionFromOctahedral(vec2 p) {
   return normalize(vec3(xy, z));
 }
 
+/// Distance at which a ray that leaves a mirror may begin to hit. The rule of the ray tracer: rounding of the origin to
+/// float, with some room.
+CATOPTRIC_FN float findRayBegin(vec3 origin) {
+  return 1.0e-6f * max(abs(origin.x), max(abs(origin.y), abs(origin.z)));
+}
+
 #ifndef CATOPTRIC_LANES
 const float kSkyPath = 1.0e30f;
 const uint kInsideBit = 0x40000000u;

@@ -17,8 +17,5 @@ void main() {
   o_origin = texelFetch(u_parentPosition, pixel, 0);
   o_direction = vec4(0.0f);
   if (reflectorOf(texelFetch(u_parentIds, pixel, 0).xy) == 0u) return;
-  vec3 size = abs(o_origin.xyz);
-  // The rule of the ray tracer: rounding of the origin to float, with some room.
-  o_direction = vec4(readMirrorDirection(u_parentRadiance, u_parentWeight, pixel),
-                     1.0e-6f * max(size.x, max(size.y, size.z)));
+  o_direction = vec4(readMirrorDirection(u_parentRadiance, u_parentWeight, pixel), findRayBegin(o_origin.xyz));
 }

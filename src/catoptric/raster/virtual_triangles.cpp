@@ -11,6 +11,7 @@
 
 #include "catoptric/core/eight_lanes.h"
 #include "catoptric/core/parallel.h"
+#include "catoptric/raster/eight_triangles.h"
 
 namespace catoptric::raster {
 namespace {
@@ -111,25 +112,6 @@ struct FindDropped {
   }
 };
 
-/// Of triangles [begin, end), eight at a time.
-void dropRun(const Judge& judge, std::span<const std::uint32_t> indices, std::size_t begin, std::size_t end,
-             std::span<std::uint8_t> isKept) {
-  for (std::size_t t = begin; t < end; t += kLanes) {
-    const std::size_t count = std::min(end - t, std::size_t(kLanes));
-    if (std::all_of(&isKept[t], &isKept[t] + count, [](std::uint8_t kept) { return kept == 0; })) continue;
-    std::uint32_t few[3 * kLanes] = {};
-    const std::uint32_t* corners = &indices[3 * t];
-    if (count < std::size_t(kLanes)) {
-      std::copy_n(corners, 3 * count, few);
-      corners = few;
-    }
-    unsigned dropped = 0;
-    core::runOnWidestVectors<FindDropped>(judge, corners, dropped);
-    for (std::size_t i = 0; i < count; ++i)
-      if ((dropped >> i & 1u) != 0) isKept[t + i] = 0;
-  }
-}
-
 }  // namespace
 
 void dropVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
@@ -143,7 +125,11 @@ void dropVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
   const Judge judge{scenePoints, virtualPositions, reflectionPoints, kinds, vec3(eye), longestChord};
   assert(isKept.size() == objects.indices.size() / 3);
   core::parallelFor(isKept.size(), kTrianglesPerTask, [&](std::size_t begin, std::size_t end) {
-    dropRun(judge, objects.indices, begin, end, isKept);
+    dropByEights(objects.indices, begin, end, isKept, [&](const std::uint32_t* corners) {
+      unsigned dropped = 0;
+      core::runOnWidestVectors<FindDropped>(judge, corners, dropped);
+      return dropped;
+    });
   });
 }
 

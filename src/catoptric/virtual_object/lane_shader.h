@@ -26,9 +26,13 @@ struct LaneShader {
   std::array<catoptric::vec4, 10> m_uvRows;
   vec3 u_irradiance[9];
   sampler2D u_baseColor, u_metallicRoughness, u_normalMap, u_occlusion, u_emissive;
+  /// The same object in its two roles.
   const raster::LaneEnvironment* u_environment;
+  struct Layers {
+    const raster::LaneEnvironment* of;
+  } u_prefiltered;
   const raster::LaneLatLong* blurred;  ///< for the material's roughness; null: textures say what that is
-  float u_environmentMaxLod;
+  float u_environmentMaxLod, u_prefilteredLast;
   uint u_objectWord, u_reflectorWord;
   const catoptric::vec4* u_vertices;
 
@@ -49,6 +53,13 @@ struct LaneShader {
   CATOPTRIC_INLINE static vec3 textureLod(const raster::LaneEnvironment* map, const vec2& uv,
                                           core::lanes::Float level) {
     return map->sampleLevel(uv, level);
+  }
+  CATOPTRIC_INLINE static vec3 textureLod(Layers map, const vec3& uvLayer, core::lanes::Float) {
+    return map.of->sampleLayer(vec2(uvLayer), uvLayer.z);
+  }
+  [[nodiscard]] bool hasBlurred() const { return blurred != nullptr; }
+  CATOPTRIC_INLINE vec3 readBlurred(const vec2& uv) const {
+    return raster::LaneEnvironment::sampleBlurred(*blurred, uv);
   }
   CATOPTRIC_INLINE vec4 readVertex(const core::EightInts& vertex, int texel) const {
     const catoptric::vec4* rows[core::kLanes];
@@ -80,15 +91,6 @@ struct LaneShader {
 
   std::array<PunctualLight, raster::kMaxLights> lights;
   int lightCount = 0;
-
-  CATOPTRIC_INLINE vec3 lookUpPrefiltered(const vec3& direction, core::lanes::Float roughness) {
-    const vec2 uv = latLongFromDirection(direction);
-    if (blurred) return raster::LaneEnvironment::sampleBlurred(*blurred, uv);
-    const core::lanes::Float last = u_environment->lastLayer();
-    const core::lanes::Float layer = clamp(roughness, 0.0f, 1.0f) * last, lower = floor(layer);
-    return mix(u_environment->sampleLayer(uv, lower), u_environment->sampleLayer(uv, lower + 1.0f),
-               layer - lower);
-  }
 
   CATOPTRIC_INLINE vec3 shadeLights(const Surface& s) {
     vec3 sum(0.0f);

@@ -77,6 +77,10 @@ class LaneShading {
     return std::span(images_.positions).first(images_.pixelCount());
   }
 
+  /// Those and the directions in which rays go on, with the distance at which they may begin to hit, into
+  /// images of the whole level, bottom row first.
+  void writeRays(std::span<vec4> origins, std::span<vec4> directions) const;
+
   /// Adds to frame.addsTo, or writes `target`, at the pixels of the chain's mirror.
   void shade(raster::FrameContext& frame, const raster::Chain& chain, const SceneTriangles& triangles,
              const LaneHits& hits, raster::Level& target);

@@ -8,13 +8,13 @@
 
 #include "catoptric/core/eight_lanes.h"
 #include "catoptric/core/parallel.h"
+#include "catoptric/raster/eight_triangles.h"
 
 namespace catoptric::virtual_object {
 namespace {
 
 using core::Eight;
 using core::EightInts;
-using core::kLanes;
 using core::larger;
 using core::toBits;
 
@@ -89,30 +89,6 @@ struct FindSeen {
   }
 };
 
-/// Of triangles [begin, end), eight at a time. How many were dropped.
-std::size_t dropUnseenRun(const Question& question, std::span<const std::uint32_t> indices, std::size_t begin,
-                          std::size_t end, std::span<std::uint8_t> isKept) {
-  std::size_t dropped = 0;
-  for (std::size_t t = begin; t < end; t += kLanes) {
-    const std::size_t count = std::min(end - t, std::size_t(kLanes));
-    if (std::all_of(&isKept[t], &isKept[t] + count, [](std::uint8_t kept) { return kept == 0; })) continue;
-    std::uint32_t few[3 * kLanes] = {};
-    const std::uint32_t* corners = &indices[3 * t];
-    if (count < std::size_t(kLanes)) {
-      std::copy_n(corners, 3 * count, few);
-      corners = few;
-    }
-    unsigned seen = 0;
-    core::runOnWidestVectors<FindSeen>(question, corners, seen);
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto isSeen = std::uint8_t(seen >> i & 1u);
-      dropped += isKept[t + i] & (isSeen ^ 1u);
-      isKept[t + i] &= isSeen;
-    }
-  }
-  return dropped;
-}
-
 }  // namespace
 
 void projectVertices(const PictureView& view, std::span<const vec3> positions, std::vector<vec3>& screen) {
@@ -176,8 +152,13 @@ std::size_t dropUnseenTriangles(const raster::TessellatedObjects& objects, const
       const float facing = world.parts[part->part].isSeenFromBehind ? 0.0f
                            : view.windingFlipped                    ? -1.0f
                                                                     : 1.0f;
-      count += dropUnseenRun({screen, facing, lower, upper}, objects.indices, t, std::min(end, endOf(*part)),
-                             isKept);
+      const Question question{screen, facing, lower, upper};
+      count += raster::dropByEights(objects.indices, t, std::min(end, endOf(*part)), isKept,
+                                    [&](const std::uint32_t* corners) {
+                                      unsigned seen = 0;
+                                      core::runOnWidestVectors<FindSeen>(question, corners, seen);
+                                      return ~seen;
+                                    });
     }
     dropped += count;
   });

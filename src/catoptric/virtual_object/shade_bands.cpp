@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "catoptric/core/parallel.h"
 #include "catoptric/virtual_object/lane_shader.h"
 #include "catoptric/virtual_object/lane_shading.h"
 
@@ -18,7 +19,9 @@ constexpr float kSkyPath = 1.0e30f;
 
 void setUniforms(const LaneJob& job, LaneShader& s) {
   s.u_environment = &job.environment;
+  s.u_prefiltered = {&job.environment};
   s.u_environmentMaxLod = job.environment.lastLevel();
+  s.u_prefilteredLast = job.environment.lastLayer();
   for (std::size_t i = 0; i < 9; ++i) s.u_irradiance[i] = job.frame.scene.environment().irradiance[i];
   s.u_vertices = job.triangles.vertexTexels().data();
   for (std::size_t i = 0; i + 3 < job.lights.size(); i += 4) {
@@ -51,6 +54,23 @@ void setPart(const LaneJob& job, std::uint32_t index, LaneShader& s) {
   const raster::PartConstants constants = raster::findPartConstants(scene, index, &job.chain);
   s.u_objectWord = constants.objectWord, s.u_reflectorWord = constants.reflectorWord;
   s.u_lobes = constants.lobes;
+}
+
+CATOPTRIC_INLINE lanes::Vec4 load(const std::vector<vec4>& image, const std::uint32_t (&at)[kLanes]) {
+  const vec4* rows[kLanes];
+  for (int i = 0; i < kLanes; ++i) rows[i] = image.data() + at[i];
+  return lanes::loadRows(rows);
+}
+
+CATOPTRIC_INLINE lanes::Float loadLast(const std::vector<vec4>& image, const std::uint32_t (&at)[kLanes]) {
+  lanes::Float w;
+  for (int i = 0; i < kLanes; ++i) w.v[i] = image[at[i]].w;
+  return w;
+}
+
+CATOPTRIC_INLINE lanes::Vec3 loadDirection(LaneShader& s, const LaneImages& images,
+                                           const std::uint32_t (&at)[kLanes]) {
+  return s.directionFromOctahedral({loadLast(images.radiances, at), loadLast(images.weights, at)});
 }
 
 /// The pixels of one band.
@@ -88,24 +108,6 @@ struct ShadeBand {
       else if (y > 0 && (id - stride)->y == word)
         p.besideY[i] = at - std::uint32_t(width), p.signY.v[i] = -1.0f;
     }
-  }
-
-  CATOPTRIC_INLINE static lanes::Vec4 load(const std::vector<vec4>& image,
-                                           const std::uint32_t (&at)[kLanes]) {
-    const vec4* rows[kLanes];
-    for (int i = 0; i < kLanes; ++i) rows[i] = image.data() + at[i];
-    return lanes::loadRows(rows);
-  }
-
-  CATOPTRIC_INLINE static lanes::Float loadLast(const std::vector<vec4>& image,
-                                                const std::uint32_t (&at)[kLanes]) {
-    lanes::Float w;
-    for (int i = 0; i < kLanes; ++i) w.v[i] = image[at[i]].w;
-    return w;
-  }
-
-  CATOPTRIC_INLINE lanes::Vec3 loadDirection(const std::uint32_t (&at)[kLanes]) const {
-    return s.directionFromOctahedral({loadLast(images.radiances, at), loadLast(images.weights, at)});
   }
 
   CATOPTRIC_INLINE lanes::Mask loadInside(const Pixels& p) const {
@@ -153,10 +155,10 @@ struct ShadeBand {
   }
 
   CATOPTRIC_INLINE void shadeSky(const Pixels& p) {
-    const lanes::Vec3 d = loadDirection(p.at);
+    const lanes::Vec3 d = loadDirection(s, images, p.at);
     Seen seen;
-    seen.radiance = s.lookUpEnvironment(d, (loadDirection(p.besideX) - d) * p.signX,
-                                        (loadDirection(p.besideY) - d) * p.signY);
+    seen.radiance = s.lookUpEnvironment(d, (loadDirection(s, images, p.besideX) - d) * p.signX,
+                                        (loadDirection(s, images, p.besideY) - d) * p.signY);
     seen.position = d;
     seen.path = kSkyPath;
     store(p, seen, false, uvec2(0u, job.chain.id << 16u));
@@ -168,9 +170,9 @@ struct ShadeBand {
     ray.origin = lanes::Vec3(place);
     ray.originDx = (lanes::Vec3(load(images.positions, p.besideX)) - ray.origin) * p.signX;
     ray.originDy = (lanes::Vec3(load(images.positions, p.besideY)) - ray.origin) * p.signY;
-    ray.direction = loadDirection(p.at);
-    ray.directionDx = (loadDirection(p.besideX) - ray.direction) * p.signX;
-    ray.directionDy = (loadDirection(p.besideY) - ray.direction) * p.signY;
+    ray.direction = loadDirection(s, images, p.at);
+    ray.directionDx = (loadDirection(s, images, p.besideX) - ray.direction) * p.signX;
+    ray.directionDy = (loadDirection(s, images, p.besideY) - ray.direction) * p.signY;
 
     LaneShader::Corners corners;
     lanes::Float drawn;
@@ -229,7 +231,42 @@ struct ShadeBand {
   }
 };
 
+/// Rays of rows [begin, end) of the bounds, into images of the whole level.
+struct WriteRays {
+  const LaneImages& images;
+  std::size_t begin, end;
+  vec4 *origins, *directions;
+
+  static CATOPTRIC_INLINE void run(const WriteRays& self) {
+    const LaneImages& images = self.images;
+    const auto width = std::size_t(images.bounds.width);
+    LaneShader s;
+    for (std::size_t y = self.begin; y < self.end; ++y) {
+      const std::size_t to = (std::size_t(images.bounds.y) + y) * std::size_t(images.levelWidthPx) +
+                             std::size_t(images.bounds.x);
+      std::copy_n(images.positions.begin() + std::ptrdiff_t(y * width), width, self.origins + to);
+      for (std::size_t x = 0; x < width; x += std::size_t(kLanes)) {
+        std::uint32_t at[kLanes];
+        const std::size_t count = std::min(width - x, std::size_t(kLanes));
+        for (std::size_t i = 0; i < std::size_t(kLanes); ++i)
+          at[i] = std::uint32_t(y * width + x + std::min(i, count - 1));
+        const lanes::Vec3 d = loadDirection(s, images, at);
+        const lanes::Float least = s.findRayBegin(lanes::Vec3(load(images.positions, at)));
+        for (std::size_t i = 0; i < count; ++i)
+          self.directions[to + x + i] = vec4(d.x.v[i], d.y.v[i], d.z.v[i], least.v[i]);
+      }
+    }
+  }
+};
+
 }  // namespace
+
+void LaneShading::writeRays(std::span<vec4> origins, std::span<vec4> directions) const {
+  core::parallelFor(std::size_t(images_.bounds.height), 32, [&](std::size_t begin, std::size_t end) {
+    const WriteRays rows{images_, begin, end, origins.data(), directions.data()};
+    core::runOnWidestVectors<WriteRays>(rows);
+  });
+}
 
 void shadeBands(const LaneJob& job, std::span<const LaneBand> bands) {
   LaneShader shader;

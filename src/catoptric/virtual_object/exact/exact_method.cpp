@@ -28,14 +28,19 @@ void ExactMethod::prepareScene(const raster::FrameContext& frame) {
 }
 
 void ExactMethod::readRays(const raster::Level& parent, const gl::Scissor& bounds) {
-  shading_.drawRays(parent, bounds);
   rays_.widthPx = parent.widthPx;
   rays_.heightPx = parent.heightPx;
   const std::size_t count = std::size_t(parent.widthPx) * std::size_t(parent.heightPx);
   rays_.origins.resize(count);
   rays_.directions.resize(count);
   rays_.words.resize(count);
-  shading_.readRays(bounds, rays_.origins, rays_.directions);
+  if (testsByGl_) {
+    shading_.drawRays(parent, bounds);
+    shading_.readRays(bounds, rays_.origins, rays_.directions);
+  } else {
+    shading_.inLanes().readParent(parent, bounds);
+    shading_.inLanes().writeRays(rays_.origins, rays_.directions);
+  }
 }
 
 bool ExactMethod::showsBack(const scene::WorldGeometry& world, const scene::Part& part,
@@ -178,6 +183,7 @@ const HitImage* ExactMethod::findHits(raster::FrameContext& frame, const raster:
 
 void ExactMethod::drawRest(raster::FrameContext& frame, const raster::Chain& chain,
                            const raster::Level& parent, raster::Level& target, PartImage* image) {
+  if (!testsByGl_) shading_.drawRays(parent, chain.bounds);
   drawHits(frame, chain, parent, image);
   shadeHits(frame, chain, parent, target);
   background_.draw(frame.scene, chain, parent, target);
@@ -190,7 +196,6 @@ void ExactMethod::render(raster::FrameContext& frame, const raster::Chain& chain
   static_cast<void>(findRays(frame, chain, parent));
   // 2 to 5
   if (const HitImage* image = findHits(frame, chain, {})) {
-    shading_.inLanes().readParent(parent, chain.bounds);
     shading_.inLanes().shade(frame, chain, shading_.triangles(), {image->hits, false}, target);
     return;
   }

@@ -59,7 +59,8 @@ class ExactMethod : public raster::ReflectionMethod {
     prepareScene(frame);
     return *hierarchy_;
   }
-  /// The rays of a mirror's pixels; the images are the level's, and hold nothing outside of chain.bounds.
+  /// The rays of a mirror's pixels, and what shades them in lanes; the images are the level's, and hold
+  /// nothing outside of chain.bounds.
   [[nodiscard]] const RayImages& findRays(const raster::FrameContext& frame, const raster::Chain& chain,
                                           const raster::Level& parent);
   /// What the rays of findRays() meet at pixels of chain.bounds that have a 0 in `isDone` (row by row; empty:

@@ -191,8 +191,7 @@ void VirtualObjectMethod::drawInParts(raster::FrameContext& frame, const raster:
   frame.counters.boundedPixels += chain.pixels - done;
   // 4
   if (const HitImage* rest = exact_.findHits(frame, chain, isDone_)) {
-    LaneShading& lanes = shading_.inLanes();
-    lanes.readParent(parent, chain.bounds);
+    LaneShading& lanes = shading_.inLanes();  // findRays() has read the level
     std::vector<uvec2>& all = partPixels_.confirmed.hits;
     for (std::size_t i = 0; i < all.size(); ++i) {
       const uvec2 hit = rest->hits[i];
