@@ -8,11 +8,17 @@
 // runOnWidestVectors().
 #pragma once
 
+#include <cstddef>
+
 #include "catoptric/core/eight_lanes.h"
 
 namespace catoptric::core::lanes {
 
-struct Mask {
+/// Where vectors are eight wide they are loaded from whole multiples of their size, which compilers do not
+/// keep to where they are not.
+inline constexpr std::size_t kAlignment = sizeof(Eight);
+
+struct alignas(kAlignment) Mask {
   EightInts v;
   Mask() = default;
   CATOPTRIC_INLINE Mask(bool all) : v(EightInts{} - std::int32_t(all)) {}
@@ -35,7 +41,7 @@ CATOPTRIC_INLINE bool anyLane(Mask a) {
   return toBits(a.v) != 0;
 }
 
-struct Float {
+struct alignas(kAlignment) Float {
   Eight v;
   Float() = default;
   CATOPTRIC_INLINE Float(float all) : v(Eight{} + all) {}

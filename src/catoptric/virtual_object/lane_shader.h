@@ -17,7 +17,7 @@ struct LaneShader {
   using vec4 = core::lanes::Vec4;
   using uint = std::uint32_t;
   using sampler2D = const raster::LaneTexture*;
-  struct Corners {
+  struct alignas(core::lanes::kAlignment) Corners {
     core::EightInts x, y, z, w;
   };
   using uvec4 = Corners;

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "catoptric/core/lane_vectors.h"
 
@@ -57,6 +59,13 @@ TEST(Lanes, noAnswerIsStillANumber) {
   EXPECT_EQ(atan(0.0f, 0.0f).v[3], 0.0f);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(clamp(nan, 2.0f, 3.0f).v[0], 2.0f);  // whatever comes out of it can be an index
+}
+
+TEST(Lanes, areAlignedForTheWidestVectors) {
+  static_assert(alignof(Float) == sizeof(Eight) && alignof(Mask) == sizeof(Eight) &&
+                alignof(Vec3) == sizeof(Eight));
+  const std::vector<Vec3> some(3);
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(some.data()) % sizeof(Eight), 0u);
 }
 
 TEST(Lanes, eachLaneChoosesForItself) {
