@@ -60,10 +60,12 @@ CATOPTRIC_INLINE Corners findCorners(const gl::Scissor& bounds, TriangleGroup& g
   Corners c;
   EightInts near = core::fromBits(g.wanted);
   for (int k = 0; k < 3; ++k) {
-    const Eight x = load(g.x[k]), y = load(g.y[k]);
-    near &= (x > -TriangleGroup::kReach) & (x < TriangleGroup::kReach) & (y > -TriangleGroup::kReach) &
-            (y < TriangleGroup::kReach);  // not for a NaN
-    c.x[k] = toSubpixels(x) - bounds.x * kSub, c.y[k] = toSubpixels(y) - bounds.y * kSub;
+    const Eight x = load(g.x[k]), y = load(g.y[k]), none{};
+    const EightInts isInReach = (x > -TriangleGroup::kReach) & (x < TriangleGroup::kReach) &
+                                (y > -TriangleGroup::kReach) & (y < TriangleGroup::kReach);  // not for a NaN
+    near &= isInReach;
+    c.x[k] = toSubpixels(isInReach ? x : none) - bounds.x * kSub;
+    c.y[k] = toSubpixels(isInReach ? y : none) - bounds.y * kSub;
     c.nearness[k] = load(g.nearness[k]);
   }
   const EightInts left = smaller(smaller(c.x[0], c.x[1]), c.x[2]),

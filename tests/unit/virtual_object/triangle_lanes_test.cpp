@@ -117,7 +117,7 @@ TEST(TriangleLanes, WhatDoesNotFitIsHard) {
   }
   g.x[1][0] = std::numeric_limits<float>::quiet_NaN();
   g.y[2][1] = std::numeric_limits<float>::infinity();
-  g.x[0][2] = -3e9f;
+  g.x[0][2] = -25000, g.y[0][2] = -3e9f;
   g.x[1][3] = 70 + float(TriangleGroup::kLargestPx) + 1;
   g.y[0][4] = g.y[1][4] = g.y[2][4] = 52;       // no area
   for (int k = 0; k < 3; ++k) g.x[k][5] -= 60;  // beside the bounds
