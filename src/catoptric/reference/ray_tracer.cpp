@@ -82,6 +82,7 @@ void RayTracer::trace(const scene::CameraFrame& camera, const TraceOptions& opti
   const int columns = (camera.widthPx + kTileEdgePx - 1) / kTileEdgePx;
   const int rows = (camera.heightPx + kTileEdgePx - 1) / kTileEdgePx;
   std::atomic<std::uint64_t> rays{0};
+  std::atomic<double> reflectionSeconds{0};
   core::parallelFor(std::size_t(columns) * std::size_t(rows), 4, [&](std::size_t begin, std::size_t end) {
     if (options.cancel && *options.cancel) return;
     const FlushDenormals flush;
@@ -90,8 +91,10 @@ void RayTracer::trace(const scene::CameraFrame& camera, const TraceOptions& opti
       tracer.traceTile(int(tile % std::size_t(columns)) * kTileEdgePx,
                        int(tile / std::size_t(columns)) * kTileEdgePx);
     rays += tracer.rays();
+    reflectionSeconds += tracer.reflectionSeconds();
   });
   result.rays = rays;
+  result.reflectionSeconds = reflectionSeconds / core::threadCount();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

@@ -38,6 +38,8 @@ struct TraceResult {
   core::FootprintImage footprints;  ///< empty unless asked for
   std::uint64_t rays = 0;           ///< rays traced, primary and mirrored
   double seconds = 0;               ///< wall time of the tracing alone
+  /// The part of it that goes on from mirrors and through glass, if all threads are equally busy with it.
+  double reflectionSeconds = 0;
 };
 
 class RayTracer {

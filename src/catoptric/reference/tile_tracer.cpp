@@ -2,6 +2,7 @@
 #include "catoptric/reference/tile_tracer.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -130,22 +131,30 @@ void TileTracer::traceTile(int x0, int y0) {
 }
 
 void TileTracer::tracePaths(Purpose purpose) {
-  while (!paths_.empty()) {
-    const std::size_t count = paths_.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      const Path& path = paths_[i];
-      requests_[i] = {&path.ray, path.tNear, path.ignoredTriangle, path.ignoredPart, path.passedTriangle};
-    }
-    scene_.embree.intersect({requests_.data(), count}, {answers_.data(), count});
-    rays_ += count;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < count; ++i)
-      if (follow(paths_[i], answers_[i], purpose)) {
-        if (kept != i) paths_[kept] = paths_[i];
-        ++kept;
-      }
-    paths_.resize(kept);
+  const auto hasPassed = [](const Path& path) { return path.bounces == 0; };
+  do traceRays(purpose);
+  while (std::any_of(paths_.begin(), paths_.end(), hasPassed));  // rays of the eye behind blended surfaces
+  if (paths_.empty()) return;
+  const auto start = std::chrono::steady_clock::now();
+  while (!paths_.empty()) traceRays(purpose);
+  reflectionSeconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void TileTracer::traceRays(Purpose purpose) {
+  const std::size_t count = paths_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Path& path = paths_[i];
+    requests_[i] = {&path.ray, path.tNear, path.ignoredTriangle, path.ignoredPart, path.passedTriangle};
   }
+  scene_.embree.intersect({requests_.data(), count}, {answers_.data(), count});
+  rays_ += count;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    if (follow(paths_[i], answers_[i], purpose)) {
+      if (kept != i) paths_[kept] = paths_[i];
+      ++kept;
+    }
+  paths_.resize(kept);
 }
 
 bool TileTracer::follow(Path& path, const TraceAnswer& answer, Purpose purpose) {

@@ -32,6 +32,8 @@ class TileTracer {
   /// Fills the tile whose top left pixel is (x0, y0).
   void traceTile(int x0, int y0);
   [[nodiscard]] std::uint64_t rays() const { return rays_; }
+  /// Of that, on what goes on from mirrors and through glass: intersecting and shading.
+  [[nodiscard]] double reflectionSeconds() const { return reflectionSeconds_; }
 
  private:
   struct Path {
@@ -50,6 +52,8 @@ class TileTracer {
   void startPaths(int x0, int y0, const dvec2& samplePosition);
   [[nodiscard]] Path startPath(int x, int y, const dvec3& direction) const;
   void tracePaths(Purpose purpose);
+  /// Intersects and shades what the paths meet next, and keeps those that go on.
+  void traceRays(Purpose purpose);
   /// True while the path goes on.
   bool follow(Path& path, const TraceAnswer& answer, Purpose purpose);
   void finishInSky(const Path& path, Purpose purpose);
@@ -70,6 +74,7 @@ class TileTracer {
   std::vector<TraceRequest> requests_;
   std::vector<TraceAnswer> answers_;
   std::uint64_t rays_ = 0;
+  double reflectionSeconds_ = 0;
 };
 
 }  // namespace catoptric::reference

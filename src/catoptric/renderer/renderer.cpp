@@ -40,6 +40,8 @@ struct Renderer::Impl {
     frame.footprints = traced.footprints;
     frame.counters.rays = traced.rays;
     frame.timings.totalMs = traced.seconds * 1e3;
+    frame.timings.reflectionMs = traced.reflectionSeconds * 1e3;
+    frame.timings.primaryMs = frame.timings.totalMs - frame.timings.reflectionMs;
     return frame;
   }
 };

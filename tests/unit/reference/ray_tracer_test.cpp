@@ -100,6 +100,8 @@ TEST(RayTracer, BouncesAreLimited) {
     // Straight up the corridor: 2 to the first mirror, 4 for each leg.
     EXPECT_NEAR(seen.pathLength, (2 + 4 * bounces) * std::sqrt(1 + (0.01 + 0.0025) / 4), 1e-4);
     expectColor(centreOf(result), {0.25f, 0.5f, 1.0f}, 1e-5f);  // the last mirror shows the environment
+    EXPECT_EQ(result.reflectionSeconds > 0, bounces > 0);
+    EXPECT_LT(result.reflectionSeconds, result.seconds);
   }
 }
 
