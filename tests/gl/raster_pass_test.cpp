@@ -19,7 +19,6 @@ using reference::makeMirror;
 using reference::makeQuad;
 using reference::makeUnlit;
 using reference::TracedTestScene;
-using RasterPass = GlTest;
 
 constexpr int kSizePx = 96;
 
@@ -31,14 +30,23 @@ renderer::FrameOptions optionsFor(int bounces) {
   return options;
 }
 
-renderer::Frame rasterize(const TracedTestScene& t, const scene::WorldGeometry& world, int bounces) {
+/// Mirrors drawn by GL, or their numbers and pixels by the processor.
+enum class By { Gl, Processor };
+
+renderer::Frame rasterizeBy(By by, const TracedTestScene& t, const scene::WorldGeometry& world, int bounces) {
   renderer::RasterFrame frame(GlTest::context(), t.scene, world, t.environment);
+  frame.drawNumbersByGl(by == By::Gl);
   return frame.render(t.frame(kSizePx, kSizePx), optionsFor(bounces));
 }
 
-renderer::Frame rasterize(const TracedTestScene& t, int bounces = 1) {
-  return rasterize(t, t.world, bounces);
-}
+class RasterPass : public GlTest, public testing::WithParamInterface<By> {
+ protected:
+  static renderer::Frame rasterize(const TracedTestScene& t, int bounces = 1) {
+    return rasterizeBy(GetParam(), t, t.world, bounces);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(By, RasterPass, testing::Values(By::Gl, By::Processor),
+                         [](const auto& info) { return info.param == By::Gl ? "Gl" : "Processor"; });
 
 bool isSame(const core::SeenPixel& a, const core::SeenPixel& b) {
   return a.object == b.object && a.firstReflector == b.firstReflector && a.bounces == b.bounces &&
@@ -65,7 +73,7 @@ std::size_t countSeen(const renderer::Frame& frame, std::uint32_t object, std::u
 /// Edges may fall to either side of a pixel's centre: float against double.
 constexpr double kSame = 0.998;
 
-TEST_F(RasterPass, whatIsNearIsNotCutOff) {
+TEST_P(RasterPass, whatIsNearIsNotCutOff) {
   TracedTestScene t;
   reference::lookAtOrigin(t);
   t.add(makeFacingQuad(2.98f), makeUnlit(vec3(1)));                                 // 20 mm from the eye
@@ -76,7 +84,7 @@ TEST_F(RasterPass, whatIsNearIsNotCutOff) {
   EXPECT_EQ(countSeen(frame, 0, 0), frame.seen.size());
 }
 
-TEST_F(RasterPass, aFloorUnderTheEyeIsWhole) {
+TEST_P(RasterPass, aFloorUnderTheEyeIsWhole) {
   TracedTestScene t;  // its triangles reach behind the eye
   t.camera.eye = {0, 0.05, 0};
   t.camera.target = {0, 0, -1};
@@ -102,7 +110,7 @@ TracedTestScene makeBoardScene(bool facesMirror) {
   return t;
 }
 
-TEST_F(RasterPass, aMirrorTurnsTheWindingRound) {
+TEST_P(RasterPass, aMirrorTurnsTheWindingRound) {
   const TracedTestScene facing = makeBoardScene(true), turned = makeBoardScene(false);
   const renderer::Frame seenInMirror = rasterize(facing), seenDirectly = rasterize(turned);
   EXPECT_EQ(countSeen(seenInMirror, 1, 0), 0u);  // its back, seen directly, is not drawn
@@ -113,7 +121,7 @@ TEST_F(RasterPass, aMirrorTurnsTheWindingRound) {
   EXPECT_GE(shareSame(seenDirectly, turned), kSame);
 }
 
-TEST_F(RasterPass, twoMirrorsTurnItBack) {
+TEST_P(RasterPass, twoMirrorsTurnItBack) {
   TracedTestScene t;
   t.camera.eye = {0.6, 0.1, 2.2};
   t.camera.target = {-0.115, 0, 0};
@@ -129,7 +137,7 @@ TEST_F(RasterPass, twoMirrorsTurnItBack) {
   EXPECT_GE(shareSame(frame, t, 4), 0.995);  // four bounces, each with its edges
 }
 
-TEST_F(RasterPass, nothingBehindAMirrorIsReflectedInIt) {
+TEST_P(RasterPass, nothingBehindAMirrorIsReflectedInIt) {
   TracedTestScene t;
   t.camera.eye = {1.5, 0.5, 3};
   t.camera.target = {0, 0, 0};
@@ -162,7 +170,7 @@ TracedTestScene makeCorner() {
   return t;
 }
 
-TEST_F(RasterPass, eachChainKeepsToItsMask) {
+TEST_P(RasterPass, eachChainKeepsToItsMask) {
   const TracedTestScene t = makeCorner();
   const renderer::Frame frame = rasterize(t, 3);
   for (std::uint32_t bounces = 0; bounces < 3; ++bounces)
@@ -170,12 +178,36 @@ TEST_F(RasterPass, eachChainKeepsToItsMask) {
   EXPECT_GE(shareSame(frame, t, 3), 0.995);
 }
 
-TEST_F(RasterPass, aTiltedPlaneDoesNotPass) {
+/// Their rectangles overlap, and none may overwrite what another one has added.
+TEST_F(GlTest, mirrorsThatAreAddedTogetherLeaveEachOtherAlone) {
+  TracedTestScene t = makeCorner();
+  t.camera.up = {1, 1, 0};  // so that the edge between the mirrors is slanted
+  const auto render = [&](bool withSeen) {
+    renderer::RasterFrame frame(GlTest::context(), t.scene, t.world, t.environment);
+    frame.drawNumbersByGl(false);
+    renderer::FrameOptions options = optionsFor(1);
+    options.withSeen = withSeen;  // colour alone is added, all mirrors at once
+    return frame.render(t.frame(kSizePx, kSizePx), options).radiance;
+  };
+  const core::ImageRgbaF added = render(false), drawn = render(true);
+  const reference::TraceResult truth = t.trace(kSizePx, kSizePx, {.bounces = 1});
+  std::size_t other = 0, mirrors = 0;
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(added.pixels()[i][k], drawn.pixels()[i][k], 1e-5f) << i;
+    mirrors += truth.seen.pixels()[i].bounces > 0 ? 1 : 0;
+    other += glm::length(vec3(added.pixels()[i]) - vec3(truth.radiance.pixels()[i])) > 0.01f ? 1 : 0;
+  }
+  EXPECT_GT(mirrors, added.size() / 5);
+  EXPECT_LT(other, added.size() / 200);
+}
+
+/// By the processor it nearly would: what a pixel shows is where its own ray goes.
+TEST_F(GlTest, aTiltedPlaneDoesNotPass) {
   const TracedTestScene t = makeCorner();
   scene::WorldGeometry wrong = t.world;
   core::Plane& plane = wrong.reflectors[0].plane;
   plane.normal = glm::normalize(plane.normal + dvec3(0, 0.01, 0));
-  EXPECT_LT(shareSame(rasterize(t, wrong, 3), t, 3), 0.9);
+  EXPECT_LT(shareSame(rasterizeBy(By::Gl, t, wrong, 3), t, 3), 0.9);
 }
 
 /// Three sheets of glass one behind the other, in the order given, before a mirror.
@@ -196,7 +228,7 @@ TracedTestScene makeGlass(const std::array<int, 3>& order) {
   return t;
 }
 
-TEST_F(RasterPass, blendedSurfacesLieOverEachOtherFromFarToNear) {
+TEST_P(RasterPass, blendedSurfacesLieOverEachOtherFromFarToNear) {
   // Sheet 0 is the nearest. Through the mirror the order is the other way round: it lies farthest.
   const auto over = [](int sheet, const vec3& below) {
     const float alpha = 0.25f + 0.125f * float(sheet);
@@ -214,7 +246,7 @@ TEST_F(RasterPass, blendedSurfacesLieOverEachOtherFromFarToNear) {
   }
 }
 
-TEST_F(RasterPass, anEmptySceneShowsTheSky) {
+TEST_P(RasterPass, anEmptySceneShowsTheSky) {
   TracedTestScene t;
   t.finish();
   const renderer::Frame frame = rasterize(t);

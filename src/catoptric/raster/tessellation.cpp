@@ -143,6 +143,19 @@ void TessellatedObjects::clear() {
   simplifiedTriangles = 0;
 }
 
+TessellatedObjects makeUncutObjects(const scene::WorldGeometry& world) {
+  TessellatedObjects objects;
+  objects.indices = world.indices;
+  objects.sourceTriangles.resize(world.triangleCount());
+  std::iota(objects.sourceTriangles.begin(), objects.sourceTriangles.end(), 0u);
+  for (std::uint32_t i = 0; i < world.parts.size(); ++i) {
+    const scene::Part& part = world.parts[i];
+    if (part.indexCount > 0)
+      objects.parts.push_back({i, part.firstIndex, part.indexCount, part.firstVertex, part.vertexCount});
+  }
+  return objects;
+}
+
 double findTessellationSize(const scene::Reflector& reflector, const dvec3& eye,
                             const scene::CameraFrame& camera) {
   constexpr double kSmallest = 175, kLargest = 2800;

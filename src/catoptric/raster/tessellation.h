@@ -46,6 +46,10 @@ struct TessellatedObjects {
   void clear();  ///< keeps the memory
 };
 
+/// All parts as they are: indices into the world's own vertices, sourceTriangles and parts; the rest is
+/// empty.
+[[nodiscard]] TessellatedObjects makeUncutObjects(const scene::WorldGeometry& world);
+
 inline constexpr double kUncutPx = 1e6;  ///< from this maxErrorPx on nothing is cut at all
 
 struct TessellationOptions {

@@ -143,6 +143,33 @@ void RasterFrame::renderMirror(raster::ReflectionMethod& method, raster::FrameCo
   mask_.end(chain, parent, target);
 }
 
+void RasterFrame::renderMirrors(raster::FrameContext& context, const std::vector<raster::Chain>& chains,
+                                const raster::Level& parent, raster::Level& target,
+                                const FrameOptions& options) {
+  std::vector<std::pair<const raster::Chain*, raster::ReflectionMethod*>> single;
+  std::vector<const raster::Chain*> together;
+  for (const raster::Chain& chain : chains) {
+    raster::ReflectionMethod* method = pickMethod(context, chain, options);
+    if (chain.level == 1 && method) lastMethods_[chain.last] = method;
+    if (method == &planar_ && virtual_.drawsFlat(context, chain)) method = &virtual_;
+    if (context.addsTo && method == &virtual_)
+      together.push_back(&chain);
+    else
+      single.emplace_back(&chain, method);
+  }
+  if (!together.empty())
+    for (const raster::Chain* chain : virtual_.addTogether(context, std::move(together), parent))
+      single.emplace_back(chain, &virtual_);
+  for (const auto& [chain, method] : single) {
+    context.hasAdded = false;
+    if (method)
+      renderMirror(*method, context, *chain, parent, target);
+    else
+      unfollowed_.draw(scene_, *chain, parent, target, false);
+    target.isDrawn = target.isDrawn || !context.hasAdded;
+  }
+}
+
 bool RasterFrame::needsLevelsOfDetail(const FrameOptions& options) const {
   const bool isVirtual = options.method == Method::Auto || options.method == Method::Virtual;
   return isVirtual && options.solver != Solver::Exact && options.solver != Solver::Explosion &&
@@ -223,16 +250,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
     context.addsTo = isAdded ? levels_[std::size_t(level)].get() : nullptr;
     target.clear(findUnion(mirrors));
     target.drawnRects = std::move(mirrors.rects);
-    for (const raster::Chain& chain : mirrors.chains) {
-      raster::ReflectionMethod* method = pickMethod(context, chain, options);
-      context.hasAdded = false;
-      if (method)
-        renderMirror(*method, context, chain, parent, target);
-      else
-        unfollowed_.draw(scene_, chain, parent, target, false);
-      target.isDrawn = target.isDrawn || !context.hasAdded;
-      if (level == 0 && method) lastMethods_[chain.last] = method;
-    }
+    renderMirrors(context, mirrors.chains, parent, target, options);
     for (const raster::Chain& chain : mirrors.unfollowed)
       unfollowed_.draw(scene_, chain, parent, target, false);
     ++levelCount;

@@ -48,6 +48,9 @@ class RasterFrame {
   void renderSample(const scene::CameraFrame& camera, const FrameOptions& options, const dvec2& jitterPx,
                     Frame& frame);
   /// What one mirror shows, kept within its pixels.
+  /// What the mirrors of a level show, each by the method that is picked for it.
+  void renderMirrors(raster::FrameContext& context, const std::vector<raster::Chain>& chains,
+                     const raster::Level& parent, raster::Level& target, const FrameOptions& options);
   void renderMirror(raster::ReflectionMethod& method, raster::FrameContext& context,
                     const raster::Chain& chain, const raster::Level& parent, raster::Level& target);
   [[nodiscard]] bool isMapped(const raster::Chain& chain, const FrameOptions& options) const;

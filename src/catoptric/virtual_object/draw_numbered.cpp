@@ -14,85 +14,129 @@
 namespace catoptric::virtual_object {
 
 /// Which triangles are drawn: the cheap question first.
-void VirtualObjectMethod::markTriangles(raster::FrameContext& frame, const raster::Chain& chain,
-                                        const raster::SurfaceView& view, const Prepared& p) {
-  const PictureView picture{mat4(view.clipFromDraw), view.parent->widthPx, view.parent->heightPx,
-                            view.windingFlipped};
-  triangles_.isKept.assign(p.objects.indices.size() / 3, 1);
-  projectVertices(picture, p.virtualPositions, screen_);
-  frame.counters.culledTriangles += dropUnseenTriangles(p.objects, frame.scene.geometry(), picture,
-                                                        chain.bounds, screen_, triangles_.isKept);
-  raster::dropVirtualTriangles(p.objects, view.drawEye, p.virtualPositions, p.kinds, p.reflectionPoints,
-                               triangles_.isKept, {}, findLongestChord(p));
+void VirtualObjectMethod::markTriangles(const raster::FrameContext& frame, NumberedMirror& m) {
+  const PictureView picture{mat4(m.view.clipFromDraw), m.view.parent->widthPx, m.view.parent->heightPx,
+                            m.view.windingFlipped};
+  m.triangles.isKept.assign(m.objects->indices.size() / 3, 1);
+  projectVertices(picture, m.virtualPositions, m.screen);
+  m.culled = dropUnseenTriangles(*m.objects, frame.scene.geometry(), picture, m.chain->bounds, m.screen,
+                                 m.triangles.isKept);
+  if (!m.prepared) return;
+  const Prepared& p = *m.prepared;
+  raster::dropVirtualTriangles(p.objects, m.view.drawEye, p.virtualPositions, p.kinds, p.reflectionPoints,
+                               m.triangles.isKept, {}, findLongestChord(p));
 }
 
-void VirtualObjectMethod::drawNumbersByGl(raster::FrameContext& frame, const raster::Chain& chain,
-                                          const raster::SurfaceView& view, Prepared& p) {
+void VirtualObjectMethod::drawNumbersByGl(raster::FrameContext& frame, NumberedMirror& m) {
+  Prepared& p = *m.prepared;
   if (!p.numbered) p.numbered = std::make_unique<NumberedTriangles>(p.objects);
-  raster::gatherVirtualTriangles(p.objects, p.numbered->indices(), p.isNumbered, triangles_);
-  frame.counters.virtualTriangles += triangles_.indices.size() / 3;
+  raster::gatherVirtualTriangles(p.objects, p.numbered->indices(), m.isNumbered, m.triangles);
+  m.drawn = m.triangles.indices.size() / 3;
   ranges_.clear();
-  for (const raster::TessellatedPart& part : triangles_.parts)
+  for (const raster::TessellatedPart& part : m.triangles.parts)
     if (part.indexCount > 0) ranges_.push_back({part.part, part.firstIndex, part.indexCount});
-  shading_.beginHits(chain.bounds);
-  p.numbered->draw(frame, view, numberProgram_, p.virtualPositions, triangles_.indices, ranges_);
-  shading_.readHits(chain.bounds, numbers_.hits);
+  shading_.beginHits(m.chain->bounds);
+  p.numbered->draw(frame, m.view, numberProgram_, p.virtualPositions, m.triangles.indices, ranges_);
+  shading_.readHits(m.chain->bounds, m.numbers.hits);
 }
 
-void VirtualObjectMethod::drawNumbersHere(raster::FrameContext& frame, const raster::Chain& chain,
-                                          const raster::SurfaceView& view, const Prepared& p,
+void VirtualObjectMethod::drawNumbersHere(const raster::FrameContext& frame, NumberedMirror& m,
                                           bool withDepths) {
-  const raster::Level& parent = *view.parent;
-  const NumberPicture picture{.clipFromDraw = mat4(view.clipFromDraw),
-                              .drawEye = view.drawEye,
+  const raster::Level& parent = *m.view.parent;
+  const NumberPicture picture{.clipFromDraw = mat4(m.view.clipFromDraw),
+                              .drawEye = m.view.drawEye,
                               .widthPx = parent.widthPx,
                               .heightPx = parent.heightPx,
-                              .bounds = chain.bounds,
-                              .mirror = shading_.inLanes().positions(),
+                              .bounds = m.chain->bounds,
+                              .mirror = m.inLanes.positions(),
                               .parentIds = frame.parentIds,
-                              .parentWord = chain.parentWord(),
-                              .screen = screen_,
-                              .virtualPositions = p.virtualPositions,
-                              .isKept = triangles_.isKept,
-                              .isWanted = p.isNumbered,
-                              .triangleParts = frame.scene.levels().triangleParts(),
+                              .parentWord = m.chain->parentWord(),
+                              .screen = m.screen,
+                              .virtualPositions = m.virtualPositions,
+                              .isKept = m.triangles.isKept,
+                              .isWanted = m.isNumbered,
+                              .triangleParts = m.triangleParts,
                               .withDepths = withDepths};
-  frame.counters.virtualTriangles += raster_.draw(p.objects, picture, numbers_);
+  m.drawn = m.raster.draw(*m.objects, picture, m.numbers);
 }
 
-bool VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, const raster::Chain& chain,
-                                       const raster::SurfaceView& view, Prepared& p, raster::Level& target) {
+bool VirtualObjectMethod::hasSurfaces(const Prepared& p) {
+  return std::any_of(p.objects.parts.begin(), p.objects.parts.end(),
+                     [&](const raster::TessellatedPart& part) { return p.isDrawn[part.part] != 0; });
+}
+
+bool VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, NumberedMirror& m,
+                                       raster::Level& target) {
+  const raster::Chain& chain = *m.chain;
+  const raster::SurfaceView& view = m.view;
   shading_.prepare(frame.scene, *view.parent);
   // Reading keeps one core busy.
-  auto marks = std::async(numbersByGl_ ? std::launch::deferred : std::launch::async,
-                          [&] { markTriangles(frame, chain, view, p); });
-  if (!numbersByGl_) shading_.inLanes().readParent(*view.parent, chain.bounds);
+  auto marks =
+      std::async(numbersByGl_ ? std::launch::deferred : std::launch::async, [&] { markTriangles(frame, m); });
+  if (!numbersByGl_) m.inLanes.readParent(*view.parent, chain.bounds);
   marks.get();
-  const bool hasSurfaces =
-      std::any_of(p.objects.parts.begin(), p.objects.parts.end(),
-                  [&](const raster::TessellatedPart& part) { return p.isDrawn[part.part] != 0; });
-  const bool withDepths = hasSurfaces || frame.merge != raster::Merge::Ids;
+  const bool isWithSurfaces = m.prepared && hasSurfaces(*m.prepared);
+  const bool withDepths = isWithSurfaces || frame.merge != raster::Merge::Ids;
   if (numbersByGl_)
-    drawNumbersByGl(frame, chain, view, p);
+    drawNumbersByGl(frame, m);
   else
-    drawNumbersHere(frame, chain, view, p, withDepths);
+    drawNumbersHere(frame, m, withDepths);
+  count(frame, m);
   if (!numbersByGl_ && !withDepths) {
-    shading_.inLanes().shade(frame, chain, shading_.triangles(), {numbers_.hits, true}, target);
+    m.inLanes.shade(frame, chain, shading_.triangles(), {m.numbers.hits, true}, target);
     return true;
   }
-  findPartRects(frame.scene.levels().triangleParts(), chain.bounds, numbers_.hits, frame.parentIds,
-                view.parent->widthPx, chain.parentWord(), rects_);
-  if (!numbersByGl_) shading_.uploadHits(chain.bounds, numbers_.hits, numbers_.depths);
+  findPartRects(m.triangleParts, chain.bounds, m.numbers.hits, frame.parentIds, view.parent->widthPx,
+                chain.parentWord(), rects_);
+  if (!numbersByGl_) shading_.uploadHits(chain.bounds, m.numbers.hits, m.numbers.depths);
   if (!withDepths && !rects_.rest.empty())
     background_.draw(frame.scene, chain, *view.parent, target, true, rects_.rest);
   // Edges first: they read one more texture, and llvmpipe shades what was drawn before such a draw begins.
   shading_.shadeVirtual(frame, chain, *view.parent, target, true, rects_.edges, withDepths);
   shading_.shadeVirtual(frame, chain, *view.parent, target, false, rects_.inner, withDepths);
-  if (!hasSurfaces) return !withDepths;
-  raster::gatherVirtualTriangles(p.objects, p.objects.indices, p.isDrawn, triangles_);
-  frame.counters.virtualTriangles += triangles_.indices.size() / 3;
-  if (!triangles_.indices.empty()) p.pass.drawSelected(frame, view, p.virtualPositions, triangles_, target);
+  if (!isWithSurfaces) return !withDepths;
+  Prepared& p = *m.prepared;
+  raster::gatherVirtualTriangles(p.objects, p.objects.indices, p.isDrawn, m.triangles);
+  frame.counters.virtualTriangles += m.triangles.indices.size() / 3;
+  if (!m.triangles.indices.empty()) p.pass.drawSelected(frame, view, p.virtualPositions, m.triangles, target);
   return false;
+}
+
+VirtualObjectMethod::NumberedMirror& VirtualObjectMethod::beginMirror(std::size_t index,
+                                                                      const raster::FrameContext& frame,
+                                                                      const raster::Chain& chain,
+                                                                      const raster::SurfaceView& view,
+                                                                      Prepared* prepared) {
+  while (numberedMirrors_.size() <= index) numberedMirrors_.push_back(std::make_unique<NumberedMirror>());
+  NumberedMirror& m = *numberedMirrors_[index];
+  m.chain = &chain;
+  m.view = view;
+  m.prepared = prepared;
+  if (prepared) {
+    m.objects = &prepared->objects;
+    m.virtualPositions = prepared->virtualPositions;
+    m.triangleParts = frame.scene.levels().triangleParts();
+    m.isNumbered = prepared->isNumbered;
+  } else {
+    beginFlat(frame, m);
+  }
+  return m;
+}
+
+/// All of the scene but the mirror.
+void VirtualObjectMethod::beginFlat(const raster::FrameContext& frame, NumberedMirror& m) {
+  const scene::WorldGeometry& world = frame.scene.geometry();
+  if (!uncut_) uncut_ = std::make_unique<raster::TessellatedObjects>(raster::makeUncutObjects(world));
+  m.objects = uncut_.get();
+  m.virtualPositions = world.positions;
+  m.triangleParts = world.triangleParts;
+  m.isNumbered.assign(world.parts.size(), 1);
+  m.isNumbered[world.reflectors[m.chain->last].part] = 0;
+}
+
+void VirtualObjectMethod::count(raster::FrameContext& frame, const NumberedMirror& m) {
+  frame.counters.culledTriangles += m.culled;
+  frame.counters.virtualTriangles += m.drawn;
 }
 
 }  // namespace catoptric::virtual_object

@@ -80,24 +80,25 @@ void LaneShading::writeTarget(raster::Level& target) {
   write(target.ids, images_.nextIds);
 }
 
-void LaneShading::shade(raster::FrameContext& frame, const raster::Chain& chain,
-                        const SceneTriangles& triangles, const LaneHits& hits, raster::Level& target) {
+LaneJob LaneShading::makeJob(const raster::FrameContext& frame, const raster::Chain& chain,
+                             const SceneTriangles& triangles, const LaneHits& hits, bool isLast) {
   const scene::WorldGeometry& world = frame.scene.geometry();
   const gl::Scissor& b = images_.bounds;
-  const LaneJob job{
-      .frame = frame,
-      .chain = chain,
-      .triangles = triangles,
-      .hits = hits,
-      .images = images_,
-      .ids = &frame.parentIds[std::size_t(b.y) * std::size_t(images_.levelWidthPx) + std::size_t(b.x)],
-      .isLast = target.isLast,
-      .hasSolids = std::any_of(world.reflectors.begin(), world.reflectors.end(),
-                               [](const scene::Reflector& r) { return r.isRefractor(); }),
-      .environment = frame.scene.laneEnvironment(),
-      .lights = frame.scene.packLights()};
-  if (!frame.addsTo) readTarget(target);
-  const auto height = std::size_t(b.height);
+  return {.frame = frame,
+          .chain = chain,
+          .triangles = triangles,
+          .hits = hits,
+          .images = images_,
+          .ids = &frame.parentIds[std::size_t(b.y) * std::size_t(images_.levelWidthPx) + std::size_t(b.x)],
+          .isLast = isLast,
+          .hasSolids = std::any_of(world.reflectors.begin(), world.reflectors.end(),
+                                   [](const scene::Reflector& r) { return r.isRefractor(); }),
+          .environment = frame.scene.laneEnvironment(),
+          .lights = frame.scene.packLights()};
+}
+
+void LaneShading::shade(const LaneJob& job) {
+  const auto height = std::size_t(images_.bounds.height);
   const std::size_t bands = std::min(height, std::size_t(kBandsPerThread * core::threadCount()));
   bands_.resize(std::max(bands_.size(), bands));
   core::parallelFor(bands, 1, [&](std::size_t begin, std::size_t end) {
@@ -105,11 +106,43 @@ void LaneShading::shade(raster::FrameContext& frame, const raster::Chain& chain,
       sortPixels(job, i * height / bands, (i + 1) * height / bands, bands_[i]);
     shadeBands(job, std::span(bands_).subspan(begin, end - begin));
   });
+}
+
+void LaneShading::shade(raster::FrameContext& frame, const raster::Chain& chain,
+                        const SceneTriangles& triangles, const LaneHits& hits, raster::Level& target) {
   frame.hasAdded = frame.addsTo != nullptr;
-  if (frame.addsTo)
-    frame.addsTo->radiance.uploadRect(b.x, b.y, b.width, b.height, images_.radiances.data());
-  else
-    writeTarget(target);
+  if (frame.addsTo) {
+    add(frame, chain, triangles, hits);
+    writeAdded(*frame.addsTo);
+    return;
+  }
+  readTarget(target);
+  shade(makeJob(frame, chain, triangles, hits, target.isLast));
+  writeTarget(target);
+}
+
+void LaneShading::add(const raster::FrameContext& frame, const raster::Chain& chain,
+                      const SceneTriangles& triangles, const LaneHits& hits) {
+  shade(makeJob(frame, chain, triangles, hits, true));
+}
+
+void LaneShading::takeAdded(const LaneShading& other, std::span<const uvec2> parentIds,
+                            std::uint32_t otherWord) {
+  const gl::Scissor &a = images_.bounds, &b = other.images_.bounds;
+  const int x0 = std::max(a.x, b.x), x1 = std::min(a.x + a.width, b.x + b.width);
+  const int y1 = std::min(a.y + a.height, b.y + b.height);
+  const auto place = [](const gl::Scissor& s, int x, int y) {
+    return std::size_t(y - s.y) * std::size_t(s.width) + std::size_t(x - s.x);
+  };
+  for (int y = std::max(a.y, b.y); y < y1; ++y)
+    for (int x = x0; x < x1; ++x)
+      if (parentIds[std::size_t(y) * std::size_t(images_.levelWidthPx) + std::size_t(x)].y == otherWord)
+        images_.radiances[place(a, x, y)] = other.images_.radiances[place(b, x, y)];
+}
+
+void LaneShading::writeAdded(raster::Level& level) const {
+  const gl::Scissor& b = images_.bounds;
+  level.radiance.uploadRect(b.x, b.y, b.width, b.height, images_.radiances.data());
 }
 
 }  // namespace catoptric::virtual_object

@@ -85,7 +85,19 @@ class LaneShading {
   void shade(raster::FrameContext& frame, const raster::Chain& chain, const SceneTriangles& triangles,
              const LaneHits& hits, raster::Level& target);
 
+  /// The former without GL, so that several mirrors may be shaded beside each other, once the scene has made
+  /// its laneEnvironment(): adds to the radiances that were read ...
+  void add(const raster::FrameContext& frame, const raster::Chain& chain, const SceneTriangles& triangles,
+           const LaneHits& hits);
+  /// ... takes what has been added since at another mirror's pixels, where the bounds overlap ...
+  void takeAdded(const LaneShading& other, std::span<const uvec2> parentIds, std::uint32_t otherWord);
+  /// ... and puts all in its place.
+  void writeAdded(raster::Level& level) const;
+
  private:
+  LaneJob makeJob(const raster::FrameContext& frame, const raster::Chain& chain,
+                  const SceneTriangles& triangles, const LaneHits& hits, bool isLast);
+  void shade(const LaneJob& job);
   void readTarget(const raster::Level& target);
   void writeTarget(raster::Level& target);
 

@@ -61,6 +61,7 @@ void VirtualObjectMethod::Prepared::update(const scene::WorldGeometry& world) {
 void VirtualObjectMethod::partsMoved(const scene::WorldGeometry& world,
                                      std::span<const std::uint32_t> parts) {
   last_.clear();
+  uncut_.reset();
   std::erase_if(prepared_, [&](const auto& entry) {
     const std::uint32_t own = world.reflectors[std::get<0>(entry.first)].part;
     return std::find(parts.begin(), parts.end(), own) != parts.end();
@@ -187,15 +188,40 @@ void VirtualObjectMethod::computeVirtualVertices(raster::FrameContext& frame, co
   prepared.isFoundOnCpu = wanted.empty();
 }
 
+dvec3 VirtualObjectMethod::findDrawEye(const raster::FrameContext& frame, const raster::Chain& chain) {
+  return dvec3(glm::inverse(chain.screenFromDraw) * dvec4(frame.camera.eye, 1.0));
+}
+
+void VirtualObjectMethod::noteShown(const raster::Chain& chain, Prepared& p, const dvec3& drawEye) {
+  p.eye = drawEye;
+  if (chain.level == 1) last_[chain.last] = &p;
+}
+
+bool VirtualObjectMethod::findVertices(raster::FrameContext& frame, const raster::Chain& chain,
+                                       Prepared& p) const {
+  const auto start = std::chrono::steady_clock::now();
+  p.setEye(p.mesh, frame.scene.geometry().bounds, p.eye, solverOptions());
+  if (!p.solver->canReflect()) return false;
+  if (!usesGpu(p)) {
+    computeVirtualVertices(frame, chain, p);
+    const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+    frame.counters.virtualVerticesMs += spent.count();
+  }
+  frame.counters.simplifiedTriangles += p.objects.simplifiedTriangles;
+  return true;
+}
+
 bool VirtualObjectMethod::drawObjects(raster::FrameContext& frame, const raster::Chain& chain,
                                       const raster::Level& parent, raster::Level& target) {
   // 1
-  const dvec3 drawEye = dvec3(glm::inverse(chain.screenFromDraw) * dvec4(frame.camera.eye, 1.0));
+  const dvec3 drawEye = findDrawEye(frame, chain);
+  if (!chain.curved)
+    return drawNumbered(frame, beginMirror(0, frame, chain, makeView(frame, chain, drawEye, parent), nullptr),
+                        target);
   Prepared& p = prepareReflector(frame, chain, drawEye);
   if (p.objects.indices.empty()) return false;
   const raster::SurfaceView view = makeView(frame, chain, drawEye, parent);
-  p.eye = drawEye;
-  if (chain.level == 1) last_[chain.last] = &p;
+  noteShown(chain, p, drawEye);
   if (isInParts(p, frame.scene.geometry())) {
     p.isFoundOnCpu = false;
     if (canUseNumbers(chain, frame.scene.geometry()) && !hasCutOuts(frame.scene))
@@ -204,24 +230,15 @@ bool VirtualObjectMethod::drawObjects(raster::FrameContext& frame, const raster:
       exact_.render(frame, chain, parent, target);
     return true;
   }
-  const auto start = std::chrono::steady_clock::now();
-  p.setEye(p.mesh, frame.scene.geometry().bounds, drawEye, solverOptions());
-  if (!p.solver->canReflect()) return false;
-  const bool onGpu = usesGpu(p);
-  if (!onGpu) {
-    computeVirtualVertices(frame, chain, p);
-    const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
-    frame.counters.virtualVerticesMs += spent.count();
-  }
-  frame.counters.simplifiedTriangles += p.objects.simplifiedTriangles;
+  if (!findVertices(frame, chain, p)) return false;
 
   // 2
-  if (onGpu) {
+  if (usesGpu(p)) {
     drawOnGpu(frame, chain, view, p, target);
     return false;
   }
   if (findDrawing(chain, frame.scene.geometry()) == Drawing::Numbered)
-    return drawNumbered(frame, chain, view, p, target);
+    return drawNumbered(frame, beginMirror(0, frame, chain, view, &p), target);
   const bool isMirrored = chain.drawFromWorld != dmat4(1.0);
   p.pass.draw(frame, view, p.virtualPositions, p.kinds, p.reflectionPoints,
               isMirrored ? std::span<const vec3>(p.scenePoints) : std::span<const vec3>(), target);
@@ -240,7 +257,7 @@ raster::SurfaceView VirtualObjectMethod::makeView(const raster::FrameContext& fr
   view.parent = &parent;
   view.masking = frame.masking;
   const auto& reflectors = frame.scene.geometry().reflectors;
-  if (chain.last != *chain.curved)
+  if (chain.curved && chain.last != *chain.curved)
     raster::clipAtLastMirror(reflectors[chain.last], chain.last, reflectors[*chain.curved].centre, view);
   return view;
 }

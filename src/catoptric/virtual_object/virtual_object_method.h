@@ -50,11 +50,22 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   void geometryChanged() override {
     last_.clear();
     prepared_.clear();
+    uncut_.reset();
   }
   /// Mirrors that have not moved keep their maps, and what has not moved keeps its cuts.
   void partsMoved(const scene::WorldGeometry& world, std::span<const std::uint32_t> parts) override;
   void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
               raster::Level& target) override;
+  /// May render() and addTogether() be given this chain of flat mirrors alone? The virtual object is the
+  /// scene itself then, seen by the mirrored eye; it is drawn as numbers, where the processor draws and
+  /// shades.
+  [[nodiscard]] bool drawsFlat(const raster::FrameContext& frame, const raster::Chain& chain) const;
+  /// Adds what the last mirrors of some of the chains show to the radiance of frame.addsTo, which is not
+  /// null, all at once: of flat and convex ones, where the processor draws numbers and shades. Returns the
+  /// others, for render().
+  [[nodiscard]] std::vector<const raster::Chain*> addTogether(raster::FrameContext& frame,
+                                                              std::vector<const raster::Chain*> chains,
+                                                              const raster::Level& parent);
 
   /// Draws the virtual object of a mirror, as the last frame has computed it, for an eye that is elsewhere.
   void drawFromElsewhere(raster::FrameContext& frame, std::uint32_t reflector,
@@ -143,6 +154,22 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     dvec3 eye{0};                          ///< of the last frame
     bool isFoundOnCpu = false;             ///< the arrays above are those of the solver's eye
   };
+  /// A mirror that is drawn as numbers, while it is drawn; keeps its memory.
+  struct NumberedMirror {
+    const raster::Chain* chain = nullptr;
+    raster::SurfaceView view;
+    Prepared* prepared = nullptr;  ///< of a curved one; null: a flat one
+    const raster::TessellatedObjects* objects = nullptr;
+    std::span<const vec3> virtualPositions;
+    std::span<const std::uint32_t> triangleParts;  ///< by number
+    std::vector<std::uint8_t> isNumbered;          ///< by part
+    std::vector<vec3> screen;                      ///< projectVertices()
+    raster::VirtualTriangles triangles;
+    NumberRaster raster;  ///< where the processor draws
+    NumberImage numbers;
+    LaneShading inLanes;
+    std::size_t culled = 0, drawn = 0;  ///< triangles
+  };
   void drawPartsFromElsewhere(raster::FrameContext& frame, Prepared& prepared, raster::SurfaceView& view,
                               const std::function<void(std::span<const vec3>)>& draw);
   static void addTessellation(const scene::WorldGeometry& world, const Prepared& p, raster::Marks& marks);
@@ -156,6 +183,11 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
                                       const dvec3& drawEye, const raster::Level& parent);
   Prepared& prepareReflector(const raster::FrameContext& frame, const raster::Chain& chain,
                              const dvec3& drawEye);
+  [[nodiscard]] static dvec3 findDrawEye(const raster::FrameContext& frame, const raster::Chain& chain);
+  /// For the next frame.
+  void noteShown(const raster::Chain& chain, Prepared& prepared, const dvec3& drawEye);
+  /// For that eye, unless the GPU does so; their time is counted. False where nothing is reflected.
+  bool findVertices(raster::FrameContext& frame, const raster::Chain& chain, Prepared& prepared) const;
   [[nodiscard]] SolverOptions solverOptions() const;
   /// Of all vertices that may be reflected; `wanted`: only of these runs (empty: of all).
   void computeVirtualVertices(raster::FrameContext& frame, const raster::Chain& chain, Prepared& prepared,
@@ -184,15 +216,20 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   /// What of the scene is blended is sorted by its virtual vertices, which the processor finds.
   void drawBlended(raster::FrameContext& frame, const raster::Chain& chain, const raster::SurfaceView& view,
                    Prepared& prepared, raster::Level& target);
-  void markTriangles(raster::FrameContext& frame, const raster::Chain& chain, const raster::SurfaceView& view,
-                     const Prepared& prepared);
-  void drawNumbersByGl(raster::FrameContext& frame, const raster::Chain& chain,
-                       const raster::SurfaceView& view, Prepared& prepared);
-  void drawNumbersHere(raster::FrameContext& frame, const raster::Chain& chain,
-                       const raster::SurfaceView& view, const Prepared& prepared, bool withDepths);
+  NumberedMirror& beginMirror(std::size_t index, const raster::FrameContext& frame,
+                              const raster::Chain& chain, const raster::SurfaceView& view,
+                              Prepared* prepared);
+  void beginFlat(const raster::FrameContext& frame, NumberedMirror& mirror);
+  static void markTriangles(const raster::FrameContext& frame, NumberedMirror& mirror);
+  void drawNumbersByGl(raster::FrameContext& frame, NumberedMirror& mirror);
+  static void drawNumbersHere(const raster::FrameContext& frame, NumberedMirror& mirror, bool withDepths);
+  static void count(raster::FrameContext& frame, const NumberedMirror& mirror);
+  /// Is there anything that numbers do not serve?
+  [[nodiscard]] static bool hasSurfaces(const Prepared& prepared);
+  bool beginAdding(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
+                   std::size_t index);
   /// True where the environment is there, too.
-  bool drawNumbered(raster::FrameContext& frame, const raster::Chain& chain, const raster::SurfaceView& view,
-                    Prepared& prepared, raster::Level& target);
+  bool drawNumbered(raster::FrameContext& frame, NumberedMirror& mirror, raster::Level& target);
 
   /// Is the mirror drawn part by part? A scene too large for textures is drawn as if it were convex.
   [[nodiscard]] bool isInParts(const Prepared& prepared, const scene::WorldGeometry& world) const {
@@ -226,7 +263,9 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   gl::Program numberProgram_{"virtual_object/virtual_triangle.vert", "virtual_object/virtual_triangle.frag"};
   raster::VirtualTriangles triangles_;
   std::vector<raster::DrawRange> ranges_;
-  std::vector<vec3> screen_;
+  std::vector<std::unique_ptr<NumberedMirror>> numberedMirrors_;
+  std::unique_ptr<raster::TessellatedObjects>
+      uncut_;  ///< the scene, for flat mirrors; made when first needed
   std::vector<vec4> mirrorPositions_;
   NumberRaster raster_;
   NumberImage numbers_;
