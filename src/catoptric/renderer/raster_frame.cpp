@@ -143,12 +143,12 @@ void RasterFrame::renderMirror(raster::ReflectionMethod& method, raster::FrameCo
   mask_.end(chain, parent, target);
 }
 
-void RasterFrame::renderMirrors(raster::FrameContext& context, const std::vector<raster::Chain>& chains,
+void RasterFrame::renderMirrors(raster::FrameContext& context, const VisibleMirrors& mirrors,
                                 const raster::Level& parent, raster::Level& target,
                                 const FrameOptions& options) {
   std::vector<std::pair<const raster::Chain*, raster::ReflectionMethod*>> single;
   std::vector<const raster::Chain*> together;
-  for (const raster::Chain& chain : chains) {
+  for (const raster::Chain& chain : mirrors.chains) {
     raster::ReflectionMethod* method = pickMethod(context, chain, options);
     if (chain.level == 1 && method) lastMethods_[chain.last] = method;
     if (method == &planar_ && virtual_.drawsFlat(context, chain)) method = &virtual_;
@@ -160,6 +160,11 @@ void RasterFrame::renderMirrors(raster::FrameContext& context, const std::vector
   if (!together.empty())
     for (const raster::Chain* chain : virtual_.addTogether(context, std::move(together), parent))
       single.emplace_back(chain, &virtual_);
+  for (const raster::Chain& chain : mirrors.unfollowed) single.emplace_back(&chain, nullptr);
+  target.isDrawn = !mirrors.unfollowed.empty();
+  if (single.empty()) return;
+  target.clear(findUnion(mirrors));
+  target.drawnRects = mirrors.rects;
   for (const auto& [chain, method] : single) {
     context.hasAdded = false;
     if (method)
@@ -246,14 +251,9 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
     const bool isAdded =
         target.isLast && !target.withSeen && options.merge == Merge::Ids && shadesHere(options);
     target.withIds = !target.isLast || options.merge != Merge::Ids || isAdded;
-    target.isDrawn = !mirrors.unfollowed.empty();
     context.addsTo = isAdded ? levels_[std::size_t(level)].get() : nullptr;
-    target.clear(findUnion(mirrors));
-    target.drawnRects = std::move(mirrors.rects);
-    renderMirrors(context, mirrors.chains, parent, target, options);
-    for (const raster::Chain& chain : mirrors.unfollowed)
-      unfollowed_.draw(scene_, chain, parent, target, false);
-    ++levelCount;
+    renderMirrors(context, mirrors, parent, target, options);
+    levelCount += target.isDrawn ? 1 : 0;
     parents = std::move(mirrors.chains);
   }
 

@@ -49,7 +49,7 @@ class RasterFrame {
                     Frame& frame);
   /// What one mirror shows, kept within its pixels.
   /// What the mirrors of a level show, each by the method that is picked for it.
-  void renderMirrors(raster::FrameContext& context, const std::vector<raster::Chain>& chains,
+  void renderMirrors(raster::FrameContext& context, const VisibleMirrors& mirrors,
                      const raster::Level& parent, raster::Level& target, const FrameOptions& options);
   void renderMirror(raster::ReflectionMethod& method, raster::FrameContext& context,
                     const raster::Chain& chain, const raster::Level& parent, raster::Level& target);
