@@ -12,11 +12,8 @@
 namespace catoptric::virtual_object {
 
 bool VirtualObjectMethod::drawsFlat(const raster::FrameContext& frame, const raster::Chain& chain) const {
-  const scene::WorldGeometry& world = frame.scene.geometry();
-  if (numbersByGl_ || chain.curved || chain.hasRefractor() || frame.merge != raster::Merge::Ids) return false;
-  const scene::Material& mirror =
-      frame.scene.material(world.parts[world.reflectors[chain.last].part].material);
-  return mirror.normalTexture.texture < 0 && SceneTriangles::fits(world) && !hasCutOuts(frame.scene);
+  return !numbersByGl_ && !chain.curved && !chain.hasRefractor() && frame.merge == raster::Merge::Ids &&
+         SceneTriangles::fits(frame.scene.geometry()) && !hasCutOuts(frame.scene);
 }
 
 /// Puts a mirror's virtual vertices where they belong, if it is one that can be added: all it shows are
