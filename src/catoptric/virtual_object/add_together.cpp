@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Several mirrors at once, where the processor draws their numbers and shades them: GL, which one thread may
 // talk to, reads all of them first and takes all of them at the end, and in between no core waits for a
-// mirror to be done before the next one begins.
+// mirror to be done before the next one begins. As many at a time as have no more pixels than the picture: in
+// facing mirrors chains are many, and each has its own images.
 #include <algorithm>
-#include <chrono>
 #include <future>
+#include <utility>
 
 #include "catoptric/core/parallel.h"
 #include "catoptric/virtual_object/virtual_object_method.h"
@@ -17,36 +18,29 @@ bool VirtualObjectMethod::drawsFlat(const raster::FrameContext& frame, const ras
 }
 
 /// Puts a mirror's virtual vertices where they belong, if it is one that can be added: all it shows are
-/// numbers, and no mirror of this frame before it uses the same arrays.
-bool VirtualObjectMethod::beginAdding(raster::FrameContext& frame, const raster::Chain& chain,
-                                      const raster::Level& parent, std::size_t index) {
+/// numbers. Later: a mirror that was begun before it uses the same arrays.
+VirtualObjectMethod::Begun VirtualObjectMethod::beginAdding(raster::FrameContext& frame,
+                                                            const raster::Chain& chain,
+                                                            const raster::Level& parent, std::size_t index) {
   const scene::WorldGeometry& world = frame.scene.geometry();
-  if (!chain.curved) {
-    beginMirror(index, frame, chain, makeView(frame, chain, findDrawEye(frame, chain), parent), nullptr);
-    return true;
-  }
-  if (onGpu_ || numbersByGl_ || findDrawing(chain, world) != Drawing::Numbered) return false;
   const dvec3 drawEye = findDrawEye(frame, chain);
+  if (!chain.curved) {
+    beginMirror(index, frame, chain, makeView(frame, chain, drawEye, parent), nullptr);
+    return Begun::Yes;
+  }
+  if (onGpu_ || numbersByGl_ || findDrawing(chain, world) != Drawing::Numbered) return Begun::No;
   Prepared& p = prepareReflector(frame, chain, drawEye);
-  if (p.objects.indices.empty() || isInParts(p, world) || hasSurfaces(p)) return false;
+  if (p.objects.indices.empty() || isInParts(p, world) || hasSurfaces(p)) return Begun::No;
   for (std::size_t i = 0; i < index; ++i)
-    if (numberedMirrors_[i]->prepared == &p) return false;
+    if (numberedMirrors_[i]->prepared == &p) return Begun::Later;
   noteShown(chain, p, drawEye);
-  if (!findVertices(frame, chain, p)) return false;
+  if (!findVertices(frame, chain, p)) return Begun::No;
   beginMirror(index, frame, chain, makeView(frame, chain, drawEye, parent), &p);
-  return true;
+  return Begun::Yes;
 }
 
-std::vector<const raster::Chain*> VirtualObjectMethod::addTogether(raster::FrameContext& frame,
-                                                                   std::vector<const raster::Chain*> chains,
-                                                                   const raster::Level& parent) {
-  std::size_t count = 0;
-  std::erase_if(chains, [&](const raster::Chain* chain) {
-    const bool isAdded = beginAdding(frame, *chain, parent, count);
-    count += isAdded ? 1 : 0;
-    return isAdded;
-  });
-  if (count == 0) return chains;
+void VirtualObjectMethod::addBegun(raster::FrameContext& frame, const raster::Level& parent,
+                                   std::size_t count) {
   shading_.prepare(frame.scene, parent);
   static_cast<void>(frame.scene.laneEnvironment());  // made once, and not by two threads
   const std::span mirrors(numberedMirrors_.data(), count);
@@ -70,7 +64,33 @@ std::vector<const raster::Chain*> VirtualObjectMethod::addTogether(raster::Frame
     m.inLanes.writeAdded(*frame.addsTo);
     this->count(frame, m);
   }
-  return chains;
+}
+
+std::vector<const raster::Chain*> VirtualObjectMethod::addTogether(raster::FrameContext& frame,
+                                                                   std::vector<const raster::Chain*> chains,
+                                                                   const raster::Level& parent) {
+  const auto areaOf = [](const raster::Chain* chain) {
+    return std::size_t(chain->bounds.width) * std::size_t(chain->bounds.height);
+  };
+  // Large ones first: of those that come last there are many, which share their memory.
+  std::sort(chains.begin(), chains.end(), [&](const raster::Chain* a, const raster::Chain* b) {
+    return std::pair(areaOf(b), a->id) < std::pair(areaOf(a), b->id);
+  });
+  const std::size_t most = std::size_t(parent.widthPx) * std::size_t(parent.heightPx);
+  std::vector<const raster::Chain*> others, later;
+  for (; !chains.empty(); chains.swap(later)) {
+    later.clear();
+    std::size_t count = 0, pixels = 0;
+    for (const raster::Chain* chain : chains) {
+      const bool hasRoom = count == 0 || pixels + areaOf(chain) <= most;
+      const Begun begun = hasRoom ? beginAdding(frame, *chain, parent, count) : Begun::Later;
+      if (begun == Begun::Yes) ++count, pixels += areaOf(chain);
+      if (begun == Begun::Later) later.push_back(chain);
+      if (begun == Begun::No) others.push_back(chain);
+    }
+    if (count > 0) addBegun(frame, parent, count);
+  }
+  return others;
 }
 
 }  // namespace catoptric::virtual_object

@@ -226,8 +226,11 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   static void count(raster::FrameContext& frame, const NumberedMirror& mirror);
   /// Is there anything that numbers do not serve?
   [[nodiscard]] static bool hasSurfaces(const Prepared& prepared);
-  bool beginAdding(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
-                   std::size_t index);
+  enum class Begun : std::uint8_t { Yes, Later, No };
+  Begun beginAdding(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
+                    std::size_t index);
+  /// The first `count` of numberedMirrors_.
+  void addBegun(raster::FrameContext& frame, const raster::Level& parent, std::size_t count);
   /// True where the environment is there, too.
   bool drawNumbered(raster::FrameContext& frame, NumberedMirror& mirror, raster::Level& target);
 
