@@ -158,7 +158,7 @@ TEST(AllRoots, OfShapesWithClosedForms) {
 SurfacePatch::Place placeOn(const Surface& surface, const SurfacePatch::Place& place) {
   return [=](const dvec2& uv) {
     const PatchPoint p = place(uv);
-    const dvec3 at = surface->project(p.at, 1e-8), normal = glm::normalize(surface->gradient(at));
+    const dvec3 at = surface->project(p.at, 1e-6), normal = glm::normalize(surface->gradient(at));
     const auto flatten = [&](const dvec3& v) { return glm::normalize(v - normal * glm::dot(normal, v)); };
     return PatchPoint{at, flatten(p.alongU), flatten(p.alongV)};
   };
