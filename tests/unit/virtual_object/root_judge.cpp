@@ -12,15 +12,21 @@
 namespace catoptric::virtual_object {
 namespace {
 
-constexpr double kWider = 0.5;         // of a range, to both sides
-constexpr int kDepth = 4;              // of subdivision
-constexpr int kFinest = 2 << kDepth;   // steps of the finest grid along a cell
-constexpr int kKept = 4;               // of them along that of which the places are kept
-constexpr int kAngles = 256;           // samples of a turn
-constexpr int kAngleDepth = 10;        // of subdivision there
-constexpr double kDifference = 1e-7;   // of parameters
-constexpr double kStationary = 1e-10;  // of the path's derivative along a unit tangent
-constexpr double kSame = 1e-5;         // roots nearer are one: so near, a search will end in that
+constexpr double kWider = 0.5;            // of a range, to both sides
+constexpr int kDepth = 4;                 // of subdivision
+constexpr int kNearDepth = 14;            // of it beside E and Q
+constexpr int kFinest = 2 << kNearDepth;  // steps of the finest grid along a cell
+constexpr int kLeaf = kFinest >> kDepth;  // of them along a cell that is cut no more
+constexpr int kKept = kFinest / 8;        // and along that of which the places are kept
+constexpr int kAngles = 256;              // samples of a turn
+constexpr int kAngleDepth = 10;           // of subdivision there
+constexpr double kDifference = 1e-7;      // of parameters
+constexpr double kStationary = 1e-10;     // of the path's derivative along a unit tangent
+constexpr double kSame = 1e-5;            // roots nearer are one: so near, a search will end in that
+
+double square(double x) {
+  return x * x;
+}
 
 dvec2 differentiate(const PatchPoint& p, const dvec3& eye, const dvec3& point) {
   const dvec3 gradient = glm::normalize(p.at - eye) + glm::normalize(p.at - point);
@@ -42,10 +48,10 @@ bool mayVanish(const std::array<dvec2, 5>& s) {
          mayVanish(std::array{s[0].y, s[1].y, s[2].y, s[3].y, s[4].y});
 }
 
-/// differentiate() at all points of a grid, on vectors.
+/// differentiate() at all points of a grid, on vectors, and the nearer of E and Q, squared.
 struct DifferentiateAll {
   static CATOPTRIC_INLINE void run(const GridPoints& grid, const dvec3& eye, const dvec3& point,
-                                   double* alongU, double* alongV) {
+                                   double* alongU, double* alongV, double* nearest) {
     const double *x = grid.at[0].data(), *y = grid.at[1].data(), *z = grid.at[2].data();
     const double *ux = grid.alongU[0].data(), *uy = grid.alongU[1].data(), *uz = grid.alongU[2].data();
     const double *vx = grid.alongV[0].data(), *vy = grid.alongV[1].data(), *vz = grid.alongV[2].data();
@@ -55,23 +61,24 @@ struct DifferentiateAll {
     for (std::size_t i = 0; i < count; ++i) {
       const double ex = x[i] - e0, ey = y[i] - e1, ez = z[i] - e2;
       const double qx = x[i] - q0, qy = y[i] - q1, qz = z[i] - q2;
-      const double e = 1 / std::sqrt(ex * ex + ey * ey + ez * ez);
-      const double q = 1 / std::sqrt(qx * qx + qy * qy + qz * qz);
+      const double ee = ex * ex + ey * ey + ez * ez, qq = qx * qx + qy * qy + qz * qz;
+      const double e = 1 / std::sqrt(ee), q = 1 / std::sqrt(qq);
       const double gx = ex * e + qx * q, gy = ey * e + qy * q, gz = ez * e + qz * q;
       alongU[i] = gx * ux[i] + gy * uy[i] + gz * uz[i];
       alongV[i] = gx * vx[i] + gy * vy[i] + gz * vz[i];
+      nearest[i] = std::min(ee, qq);
     }
   }
 };
 
 /// Of the path along both parameters, at all points of a grid.
 struct Slopes {
-  std::vector<double> alongU, alongV;
+  std::vector<double> alongU, alongV, nearest;
 
   Slopes(const GridPoints& grid, const dvec3& eye, const dvec3& point)
-      : alongU(grid.at[0].size()), alongV(grid.at[0].size()) {
-    double *u = alongU.data(), *v = alongV.data();
-    core::runOnWidestVectors<DifferentiateAll>(grid, eye, point, u, v);
+      : alongU(grid.at[0].size()), alongV(alongU.size()), nearest(alongU.size()) {
+    double *u = alongU.data(), *v = alongV.data(), *squared = nearest.data();
+    core::runOnWidestVectors<DifferentiateAll>(grid, eye, point, u, v, squared);
   }
   [[nodiscard]] dvec2 operator[](std::size_t i) const { return {alongU[i], alongV[i]}; }
 };
@@ -106,6 +113,7 @@ void GridPoints::add(const PatchPoint& p) {
 struct SurfacePatch::Cell {
   int x, y, size;               ///< on the finest grid
   std::array<dvec2, 5> slopes;  ///< at the corners, row by row, and in the middle
+  double nearest;               ///< from there to E or Q, squared
 };
 
 struct SurfacePatch::Query {
@@ -133,6 +141,9 @@ SurfacePatch::SurfacePatch(Place place, const dvec2& lower, const dvec2& upper, 
       nodes_.add(placeAt(kFinest * x, kFinest * y));
       if (x < cellsU && y < cellsV)
         middles_.add(placeAt(kFinest * x + kFinest / 2, kFinest * y + kFinest / 2));
+      if (x > 0 && y > 0)
+        diagonal_ = std::max(diagonal_, glm::distance(placeAt(kFinest * x, kFinest * y).at,
+                                                      placeAt(kFinest * (x - 1), kFinest * (y - 1)).at));
     }
 }
 
@@ -150,13 +161,16 @@ std::vector<dvec3> SurfacePatch::findStationary(const dvec3& eye, const dvec3& p
     std::fill(may.begin(), may.end(), std::uint8_t(1));
     clearWhereNotZero(&nodes.alongU[y * row], &middles.alongU[y * cells], may);
     clearWhereNotZero(&nodes.alongV[y * row], &middles.alongV[y * cells], may);
-    for (std::size_t x = 0; x < cells; ++x)
-      if (const std::size_t at = y * row + x; may[x])
-        ask(query,
-            {int(x) * kFinest,
-             int(y) * kFinest,
-             kFinest,
-             {nodes[at], nodes[at + 1], nodes[at + row], nodes[at + row + 1], middles[y * cells + x]}});
+    for (std::size_t x = 0; x < cells; ++x) {
+      const std::size_t at = y * row + x, middle = y * cells + x;
+      if (const Cell cell{int(x) * kFinest,
+                          int(y) * kFinest,
+                          kFinest,
+                          {nodes[at], nodes[at + 1], nodes[at + row], nodes[at + row + 1], middles[middle]},
+                          middles.nearest[middle]};
+          may[x] || isNear(cell))
+        ask(query, cell);
+    }
   }
   std::sort(query.starts.begin(), query.starts.end());  // cells side by side share corners
   query.starts.erase(std::unique(query.starts.begin(), query.starts.end()), query.starts.end());
@@ -164,10 +178,15 @@ std::vector<dvec3> SurfacePatch::findStationary(const dvec3& eye, const dvec3& p
   return query.found;
 }
 
+/// Are E or Q nearer than it is long?
+bool SurfacePatch::isNear(const Cell& cell) const {
+  return cell.nearest < square(diagonal_ * cell.size / kFinest);
+}
+
 /// Step 2 for the quarters of a cell that may hold a root.
 void SurfacePatch::ask(Query& query, const Cell& cell) const {
   const int half = cell.size / 2, quarter = cell.size / 4;
-  if (quarter == 0) {
+  if (quarter == 0 || (cell.size <= kLeaf && !isNear(cell))) {
     query.starts.insert(query.starts.end(), {{cell.x + half, cell.y + half},
                                              {cell.x, cell.y},
                                              {cell.x + cell.size, cell.y},
@@ -186,12 +205,14 @@ void SurfacePatch::ask(Query& query, const Cell& cell) const {
     for (int x = 0; x < 2; ++x) {
       const auto &low = at[std::size_t(y)], &high = at[std::size_t(y) + 1];
       const std::size_t left = std::size_t(x), right = left + 1;
+      const PatchPoint middle = placeAt(cell.x + x * half + quarter, cell.y + y * half + quarter);
       const Cell part{
           cell.x + x * half,
           cell.y + y * half,
           half,
-          {low[left], low[right], high[left], high[right], slopeAt(x * half + quarter, y * half + quarter)}};
-      if (mayVanish(part.slopes)) ask(query, part);
+          {low[left], low[right], high[left], high[right], differentiate(middle, query.eye, query.point)},
+          square(std::min(glm::distance(middle.at, query.eye), glm::distance(middle.at, query.point)))};
+      if (mayVanish(part.slopes) || isNear(part)) ask(query, part);
     }
 }
 
