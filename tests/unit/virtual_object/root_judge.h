@@ -10,7 +10,8 @@
 //      that is longer than E or Q is far from its middle, up to kNearDepth times: the derivatives turn in it.
 //   3. What is left: Newton by differences from its middle and its corners, once each.
 // On a curve: the same with one parameter; roots by halving.
-// Known failure: two roots nearer than about 1/1000 of the patch; E or Q within some 1e-5 of it.
+// Known failure: two roots nearer than about 1/1000 of the patch; E or Q within some 1e-5 of it
+// (9 of 3.8 million inside a torus).
 // Cost: 0.04 to 0.4 ms a pair.
 #pragma once
 
