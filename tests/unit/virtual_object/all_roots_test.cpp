@@ -33,18 +33,21 @@ std::size_t pairCount() {
 /// A line of the table.
 struct Row {
   std::size_t pairs = 0, expected = 0, missed = 0, answers = 0;
-  int most = 0;      ///< for one pair
-  double worst = 0;  ///< sine between half vector and normal
+  std::size_t others = 0;  ///< answers that the judge does not know, grazing ones apart
+  int most = 0;            ///< for one pair
+  double worst = 0;        ///< sine between half vector and normal
   double seconds = 0;
 
   void add(const Row& other) {
     pairs += other.pairs, expected += other.expected, missed += other.missed, answers += other.answers;
+    others += other.others;
     most = std::max(most, other.most), worst = std::max(worst, other.worst), seconds += other.seconds;
   }
   void print(const std::string& name) const {
     std::printf(
-        "%-18s %8zu pairs, expected %8zu, missed %4zu; %8zu answers, at most %2d; sine %.1e; %7.0f/s\n",
-        name.c_str(), pairs, expected, missed, answers, most, worst, double(pairs) / seconds);
+        "%-18s %8zu pairs, expected %8zu, missed %4zu; %8zu answers, %8zu others, at most %2d; sine %.1e; "
+        "%7.0f/s\n",
+        name.c_str(), pairs, expected, missed, answers, others, most, worst, double(pairs) / seconds);
     std::fflush(stdout);
   }
 };
@@ -62,7 +65,9 @@ void addPair(const APair& pair, const Found& found, const Judge& judge, Row& row
     if (std::min(glm::distance(r.position, eye), glm::distance(r.position, point)) > 1e-6 &&
         sineOfLower(r.position, r.normal) > kFlattest)
       row.worst = std::max(row.worst, sineAt(r, eye, point));
+  std::vector<dvec3> known;
   judge(pair, [&](const dvec3& at, const dvec3& normal) {
+    known.push_back(at);
     if (sineOfLower(at, normal) < kGrazing) return;
     ++row.expected;
     const bool isThere = std::any_of(found.begin(), found.end(), [&](const Reflection& r) {
@@ -70,6 +75,11 @@ void addPair(const APair& pair, const Found& found, const Judge& judge, Row& row
     });
     row.missed += isThere ? 0 : 1;
   });
+  for (const Reflection& r : found)
+    if (sineOfLower(r.position, r.normal) >= kGrazing &&
+        std::none_of(known.begin(), known.end(),
+                     [&](const dvec3& at) { return glm::distance(r.position, at) < kSame; }))
+      ++row.others;
 }
 
 /// `makePair` draws a pair; `solve` answers it; `judge` calls a function with position and normal of each
@@ -158,7 +168,7 @@ TEST(AllRoots, OfShapesWithClosedForms) {
 SurfacePatch::Place placeOn(const Surface& surface, const SurfacePatch::Place& place) {
   return [=](const dvec2& uv) {
     const PatchPoint p = place(uv);
-    const dvec3 at = surface->project(p.at, 1e-8), normal = glm::normalize(surface->gradient(at));
+    const dvec3 at = surface->project(p.at, 1e-6), normal = glm::normalize(surface->gradient(at));
     const auto flatten = [&](const dvec3& v) { return glm::normalize(v - normal * glm::dot(normal, v)); };
     return PatchPoint{at, flatten(p.alongU), flatten(p.alongV)};
   };
@@ -197,12 +207,15 @@ class AllRootsOf : public testing::TestWithParam<const char*> {
 TEST_P(AllRootsOf, RandomPairs) {
   const SurfacePatch patch(placeOn(surface, c.place), c.lower, c.upper, 64, 32);
   const double side = c.isTurned ? -1 : 1;
-  expectAll(tryPairs([&](std::mt19937& random) { return randomPair(random, c, surface); },
-                     [&](const Pair& pair) { return solve(pair); },
-                     [&](const Pair& pair, const auto& add) {
-                       for (const dvec3& at : patch.findStationary(pair.eye, pair.point))
-                         add(at, side * glm::normalize(surface->gradient(at)));
-                     }));
+  const Row row = tryPairs([&](std::mt19937& random) { return randomPair(random, c, surface); },
+                           [&](const Pair& pair) { return solve(pair); },
+                           [&](const Pair& pair, const auto& add) {
+                             for (const dvec3& at : patch.findStationary(pair.eye, pair.point))
+                               add(at, side * glm::normalize(surface->gradient(at)));
+                           });
+  expectAll(row);
+  // The judge misses some where E or Q is as good as on the mirror.
+  EXPECT_TRUE(!c.isClosed || row.others <= row.expected / 100'000) << c.name << ": " << row.others;
 }
 
 /// With a reflection that is known, for the pair was made from it.

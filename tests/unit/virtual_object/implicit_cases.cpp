@@ -63,6 +63,7 @@ ImplicitCase makeBall(const char* name, const dvec3& half, bool isTurned, double
                       glm::normalize(half * dvec3(t * cosine, t * sine, -s))};
   };
   c.isTurned = isTurned;
+  c.isClosed = true;
   c.reach = reach;
   return c;
 }
@@ -78,6 +79,7 @@ ImplicitCase makeRing(const char* name, bool isTurned, double reach) {
                       -sine * out + cosine * up};
   };
   c.isTurned = isTurned;
+  c.isClosed = true;
   c.isWithin = isTurned;
   c.reach = reach;
   c.family = Family::Torus;

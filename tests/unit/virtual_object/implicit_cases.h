@@ -24,6 +24,7 @@ struct ImplicitCase {
   bool isTurned = false;  ///< bright side: the hollow one
   double reach = 4;       ///< of eyes and points, from the middle
   Family family = Family::Quadric;
+  bool isClosed = false;
   bool isWithin = false;  ///< eyes and points: only where f < 0 before it is turned
 };
 
