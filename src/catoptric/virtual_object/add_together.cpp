@@ -62,7 +62,7 @@ void VirtualObjectMethod::addBegun(raster::FrameContext& frame, const raster::Le
     for (std::size_t k = 0; k < i; ++k)
       m.inLanes.takeAdded(mirrors[k]->inLanes, frame.parentIds, mirrors[k]->chain->parentWord());
     m.inLanes.writeAdded(*frame.addsTo);
-    this->count(frame, m);
+    countTriangles(frame, m);
   }
 }
 

@@ -81,7 +81,7 @@ bool VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, NumberedMirr
     drawNumbersByGl(frame, m);
   else
     drawNumbersHere(frame, m, withDepths);
-  count(frame, m);
+  countTriangles(frame, m);
   if (!numbersByGl_ && !withDepths) {
     m.inLanes.shade(frame, chain, shading_.triangles(), {m.numbers.hits, true}, target);
     return true;
@@ -134,7 +134,7 @@ void VirtualObjectMethod::beginFlat(const raster::FrameContext& frame, NumberedM
   m.isNumbered[world.reflectors[m.chain->last].part] = 0;
 }
 
-void VirtualObjectMethod::count(raster::FrameContext& frame, const NumberedMirror& m) {
+void VirtualObjectMethod::countTriangles(raster::FrameContext& frame, const NumberedMirror& m) {
   frame.counters.culledTriangles += m.culled;
   frame.counters.virtualTriangles += m.drawn;
 }

@@ -223,7 +223,7 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   static void markTriangles(const raster::FrameContext& frame, NumberedMirror& mirror);
   void drawNumbersByGl(raster::FrameContext& frame, NumberedMirror& mirror);
   static void drawNumbersHere(const raster::FrameContext& frame, NumberedMirror& mirror, bool withDepths);
-  static void count(raster::FrameContext& frame, const NumberedMirror& mirror);
+  static void countTriangles(raster::FrameContext& frame, const NumberedMirror& mirror);
   /// Is there anything that numbers do not serve?
   [[nodiscard]] static bool hasSurfaces(const Prepared& prepared);
   enum class Begun : std::uint8_t { Yes, Later, No };
