@@ -46,7 +46,7 @@ class RasterPass : public GlTest, public testing::WithParamInterface<By> {
   }
 };
 INSTANTIATE_TEST_SUITE_P(By, RasterPass, testing::Values(By::Gl, By::Processor),
-                         [](const auto& info) { return info.param == By::Gl ? "Gl" : "Processor"; });
+                         [](const auto& drawn) { return drawn.param == By::Gl ? "Gl" : "Processor"; });
 
 bool isSame(const core::SeenPixel& a, const core::SeenPixel& b) {
   return a.object == b.object && a.firstReflector == b.firstReflector && a.bounces == b.bounces &&

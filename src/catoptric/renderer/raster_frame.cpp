@@ -16,7 +16,6 @@
 #include "catoptric/core/sample_pattern.h"
 #include "catoptric/depth_reflection_map/reference_file.h"
 #include "catoptric/reflection_morphing/baked_file.h"
-#include "catoptric/renderer/mirror_rects.h"
 #include "catoptric/renderer/near_plane.h"
 
 namespace catoptric::renderer {
@@ -51,16 +50,25 @@ void forFlippedRows(const std::vector<Pixel>& pixels, int width, int height, con
       write(x, y, pixels[std::size_t(height - 1 - y) * std::size_t(width) + std::size_t(x)]);
 }
 
-/// The rectangle around all that the mirrors show.
-gl::Scissor findUnion(const VisibleMirrors& mirrors) {
-  ivec2 lower(std::numeric_limits<int>::max()), upper(0);
-  for (const auto* chains : {&mirrors.chains, &mirrors.unfollowed})
-    for (const raster::Chain& chain : *chains) {
-      const ivec2 corner(chain.bounds.x, chain.bounds.y);
-      lower = glm::min(lower, corner);
-      upper = glm::max(upper, corner + ivec2(chain.bounds.width, chain.bounds.height));
-    }
-  return {lower.x, lower.y, upper.x - lower.x, upper.y - lower.y};
+void addCounters(const raster::MethodCounters& counters, Frame& frame) {
+  frame.timings.lookUpMs += counters.lookUpMs;
+  frame.counters.lookedUpVertices += counters.lookedUpVertices;
+  frame.counters.morphedTraces = counters.morphedTraces;
+  frame.timings.virtualVerticesMs += counters.virtualVerticesMs;
+  frame.counters.virtualVertices += counters.virtualVertices;
+  frame.counters.culledVertices += counters.culledVertices;
+  frame.counters.culledTriangles += counters.culledTriangles;
+  frame.counters.simplifiedTriangles += counters.simplifiedTriangles;
+  frame.counters.virtualTriangles += counters.virtualTriangles;
+  frame.counters.fragmentTests += counters.fragmentTests;
+  frame.counters.virtualPixels += counters.virtualPixels;
+  frame.counters.boundedPixels += counters.boundedPixels;
+  frame.timings.warpMs += counters.warpMs;
+  frame.timings.captureMs += counters.captureMs;
+  frame.counters.zexels += counters.zexels;
+  frame.counters.zexelPixels += counters.zexelPixels;
+  frame.counters.uncoveredPixels += counters.uncoveredPixels;
+  frame.counters.zexelCaptures += counters.zexelCaptures;
 }
 
 }  // namespace
@@ -135,46 +143,6 @@ void RasterFrame::prepareLevels(int count, const FrameOptions& options) {
     levels_.push_back(std::make_unique<raster::Level>(widthPx, heightPx, withStencil));
 }
 
-void RasterFrame::renderMirror(raster::ReflectionMethod& method, raster::FrameContext& context,
-                               const raster::Chain& chain, const raster::Level& parent,
-                               raster::Level& target) {
-  context.masking = mask_.begin(context.merge, chain, parent, target);
-  method.render(context, chain, parent, target);
-  mask_.end(chain, parent, target);
-}
-
-void RasterFrame::renderMirrors(raster::FrameContext& context, const VisibleMirrors& mirrors,
-                                const raster::Level& parent, raster::Level& target,
-                                const FrameOptions& options) {
-  std::vector<std::pair<const raster::Chain*, raster::ReflectionMethod*>> single;
-  std::vector<const raster::Chain*> together;
-  for (const raster::Chain& chain : mirrors.chains) {
-    raster::ReflectionMethod* method = pickMethod(context, chain, options);
-    if (chain.level == 1 && method) lastMethods_[chain.last] = method;
-    if (method == &planar_ && virtual_.drawsFlat(context, chain)) method = &virtual_;
-    if (context.addsTo && method == &virtual_)
-      together.push_back(&chain);
-    else
-      single.emplace_back(&chain, method);
-  }
-  if (!together.empty())
-    for (const raster::Chain* chain : virtual_.addTogether(context, std::move(together), parent))
-      single.emplace_back(chain, &virtual_);
-  for (const raster::Chain& chain : mirrors.unfollowed) single.emplace_back(&chain, nullptr);
-  target.isDrawn = !mirrors.unfollowed.empty();
-  if (single.empty()) return;
-  target.clear(findUnion(mirrors));
-  target.drawnRects = mirrors.rects;
-  for (const auto& [chain, method] : single) {
-    context.hasAdded = false;
-    if (method)
-      renderMirror(*method, context, *chain, parent, target);
-    else
-      unfollowed_.draw(scene_, *chain, parent, target, false);
-    target.isDrawn = target.isDrawn || !context.hasAdded;
-  }
-}
-
 bool RasterFrame::needsLevelsOfDetail(const FrameOptions& options) const {
   const bool isVirtual = options.method == Method::Auto || options.method == Method::Virtual;
   return isVirtual && options.solver != Solver::Exact && options.solver != Solver::Explosion &&
@@ -226,36 +194,7 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   lastMethods_.clear();
   for (raster::ReflectionMethod* method : methods_)
     if (method != &morphing_ || options.method == Method::Morphing) method->prepare(context);
-  std::vector<raster::Chain> parents{raster::makeEyeChain()};
-  int levelCount = 1;
-  std::uint64_t visibleReflectors = 0;
-  std::vector<gl::Scissor> mirrorRects;
-  if (mostLevels > 0)
-    mirrorRects = findMirrorRects(geometry_, raster::makeClipFromWorld(camera, context.nearPlane, jitterPx),
-                                  options.widthPx, options.heightPx);
-  const int levelsToLookAt = mirrorRects.empty() ? 0 : mostLevels;
-  for (int level = 0; level < levelsToLookAt; ++level) {
-    // 2
-    const raster::Level& parent = *levels_[std::size_t(level)];
-    VisibleMirrors mirrors = chains_.find(parent, parents, options.bounces, mirrorRects);
-    mirrorRects.clear();
-    if (level == 0) visibleReflectors = mirrors.chains.size();
-    if (mirrors.chains.empty() && mirrors.unfollowed.empty()) break;
-    context.parentIds = chains_.ids();
-    prepareLevels(level + 2, options);
-    // 3, 4
-    raster::Level& target = *levels_[std::size_t(level) + 1];
-    target.withSeen = options.withSeen || options.drawsSeen;
-    target.composesSeen = options.withSeen;
-    target.isLast = level + 1 == mostLevels;
-    const bool isAdded =
-        target.isLast && !target.withSeen && options.merge == Merge::Ids && shadesHere(options);
-    target.withIds = !target.isLast || options.merge != Merge::Ids || isAdded;
-    context.addsTo = isAdded ? levels_[std::size_t(level)].get() : nullptr;
-    renderMirrors(context, mirrors, parent, target, options);
-    levelCount += target.isDrawn ? 1 : 0;
-    parents = std::move(mirrors.chains);
-  }
+  const int levelCount = renderLevels(context, options, mostLevels);
 
   // 5
   for (int level = levelCount - 1; level >= 0; --level)
@@ -264,32 +203,10 @@ void RasterFrame::renderSample(const scene::CameraFrame& camera, const FrameOpti
   context_.finish();
   context_.check("a frame");
   frame.timings.totalMs += millisecondsSince(start);
-  frame.timings.lookUpMs += counters.lookUpMs;
-  frame.counters.lookedUpVertices += counters.lookedUpVertices;
-  frame.counters.morphedTraces = counters.morphedTraces;
-  frame.timings.virtualVerticesMs += counters.virtualVerticesMs;
   frame.timings.reflectionMs = frame.timings.totalMs - frame.timings.primaryMs;
-  frame.counters.virtualVertices += counters.virtualVertices;
-  frame.counters.culledVertices += counters.culledVertices;
-  frame.counters.culledTriangles += counters.culledTriangles;
-  frame.counters.simplifiedTriangles += counters.simplifiedTriangles;
-  frame.counters.virtualTriangles += counters.virtualTriangles;
-  frame.counters.fragmentTests += counters.fragmentTests;
-  frame.counters.virtualPixels += counters.virtualPixels;
-  frame.counters.boundedPixels += counters.boundedPixels;
-  frame.timings.warpMs += counters.warpMs;
-  frame.timings.captureMs += counters.captureMs;
-  frame.counters.zexels += counters.zexels;
-  frame.counters.zexelPixels += counters.zexelPixels;
-  frame.counters.uncoveredPixels += counters.uncoveredPixels;
-  frame.counters.zexelCaptures += counters.zexelCaptures;
-  frame.counters.reflectorsDrawn = visibleReflectors;
-  frame.counters.reflectorsCulled = geometry_.reflectors.size() - visibleReflectors;
-}
-
-/// Does the processor shade in some mirrors?
-bool RasterFrame::shadesHere(const FrameOptions& options) const {
-  return !numbersByGl_ && (options.method == Method::Auto || options.method == Method::Virtual);
+  addCounters(counters, frame);
+  frame.counters.reflectorsDrawn = lastMirrors_;
+  frame.counters.reflectorsCulled = geometry_.reflectors.size() - lastMirrors_;
 }
 
 bool RasterFrame::findsVerticesOnGpu(const FrameOptions& options) const {

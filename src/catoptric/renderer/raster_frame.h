@@ -48,6 +48,9 @@ class RasterFrame {
   void renderSample(const scene::CameraFrame& camera, const FrameOptions& options, const dvec2& jitterPx,
                     Frame& frame);
   /// What one mirror shows, kept within its pixels.
+  /// Draws what mirrors show into levels 1, 2, ...; how many levels there are then to be composed, the
+  /// primary image among them.
+  int renderLevels(raster::FrameContext& context, const FrameOptions& options, int mostLevels);
   /// What the mirrors of a level show, each by the method that is picked for it.
   void renderMirrors(raster::FrameContext& context, const VisibleMirrors& mirrors,
                      const raster::Level& parent, raster::Level& target, const FrameOptions& options);
@@ -80,6 +83,7 @@ class RasterFrame {
   const scene::Environment& surroundings_;
   raster::SceneBuffers scene_;
   ChainFinder chains_;
+  std::uint64_t lastMirrors_ = 0;  ///< that the last primary image shows
   raster::SurfacePass surfaces_;
   raster::PrimaryPass primary_;
   raster::ComposePass compose_;
