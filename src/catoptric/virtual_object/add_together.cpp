@@ -3,9 +3,7 @@
 // talk to, reads all of them first and takes all of them at the end, and in between no core waits for a
 // mirror to be done before the next one begins. As many at a time as have no more pixels than the picture: in
 // facing mirrors chains are many, and each has its own images.
-#include <algorithm>
 #include <future>
-#include <utility>
 
 #include "catoptric/core/parallel.h"
 #include "catoptric/virtual_object/virtual_object_method.h"
@@ -69,22 +67,18 @@ void VirtualObjectMethod::addBegun(raster::FrameContext& frame, const raster::Le
 std::vector<const raster::Chain*> VirtualObjectMethod::addTogether(raster::FrameContext& frame,
                                                                    std::vector<const raster::Chain*> chains,
                                                                    const raster::Level& parent) {
-  const auto areaOf = [](const raster::Chain* chain) {
-    return std::size_t(chain->bounds.width) * std::size_t(chain->bounds.height);
-  };
-  // Large ones first: of those that come last there are many, which share their memory.
-  std::sort(chains.begin(), chains.end(), [&](const raster::Chain* a, const raster::Chain* b) {
-    return std::pair(areaOf(b), a->id) < std::pair(areaOf(a), b->id);
-  });
   const std::size_t most = std::size_t(parent.widthPx) * std::size_t(parent.heightPx);
   std::vector<const raster::Chain*> others, later;
   for (; !chains.empty(); chains.swap(later)) {
     later.clear();
     std::size_t count = 0, pixels = 0;
+    bool hasRoom =
+        true;  // those of one mirror stay in their order, for searches begin where the last one ended
     for (const raster::Chain* chain : chains) {
-      const bool hasRoom = count == 0 || pixels + areaOf(chain) <= most;
+      const std::size_t area = std::size_t(chain->bounds.width) * std::size_t(chain->bounds.height);
+      hasRoom = hasRoom && (count == 0 || pixels + area <= most);
       const Begun begun = hasRoom ? beginAdding(frame, *chain, parent, count) : Begun::Later;
-      if (begun == Begun::Yes) ++count, pixels += areaOf(chain);
+      if (begun == Begun::Yes) ++count, pixels += area;
       if (begun == Begun::Later) later.push_back(chain);
       if (begun == Begun::No) others.push_back(chain);
     }
