@@ -131,9 +131,9 @@ void TileTracer::traceTile(int x0, int y0) {
 }
 
 void TileTracer::tracePaths(Purpose purpose) {
-  const auto hasPassed = [](const Path& path) { return path.bounces == 0; };
+  const auto isOfEye = [](const Path& path) { return path.bounces == 0; };
   do traceRays(purpose);
-  while (std::any_of(paths_.begin(), paths_.end(), hasPassed));  // rays of the eye behind blended surfaces
+  while (std::any_of(paths_.begin(), paths_.end(), isOfEye));  // rays of the eye behind blended surfaces
   if (paths_.empty()) return;
   const auto start = std::chrono::steady_clock::now();
   while (!paths_.empty()) traceRays(purpose);

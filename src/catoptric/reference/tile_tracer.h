@@ -32,7 +32,7 @@ class TileTracer {
   /// Fills the tile whose top left pixel is (x0, y0).
   void traceTile(int x0, int y0);
   [[nodiscard]] std::uint64_t rays() const { return rays_; }
-  /// Of that, on what goes on from mirrors and through glass: intersecting and shading.
+  /// Spent on what goes on from mirrors and through glass: intersecting and shading.
   [[nodiscard]] double reflectionSeconds() const { return reflectionSeconds_; }
 
  private:

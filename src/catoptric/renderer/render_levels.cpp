@@ -37,10 +37,11 @@ void RasterFrame::renderMirrors(raster::FrameContext& context, const VisibleMirr
                                 const FrameOptions& options) {
   std::vector<std::pair<const raster::Chain*, raster::ReflectionMethod*>> single;
   std::vector<const raster::Chain*> together;
+  const bool drawsFlat = virtual_.drawsFlat(context);
   for (const raster::Chain& chain : mirrors.chains) {
     raster::ReflectionMethod* method = pickMethod(context, chain, options);
     if (chain.level == 1 && method) lastMethods_[chain.last] = method;
-    if (method == &planar_ && virtual_.drawsFlat(context, chain)) method = &virtual_;
+    if (method == &planar_ && drawsFlat) method = &virtual_;
     if (context.addsTo && method == &virtual_)
       together.push_back(&chain);
     else

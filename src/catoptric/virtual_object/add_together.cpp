@@ -10,9 +10,9 @@
 
 namespace catoptric::virtual_object {
 
-bool VirtualObjectMethod::drawsFlat(const raster::FrameContext& frame, const raster::Chain& chain) const {
-  return !numbersByGl_ && !chain.curved && !chain.hasRefractor() && frame.merge == raster::Merge::Ids &&
-         SceneTriangles::fits(frame.scene.geometry()) && !hasCutOuts(frame.scene);
+bool VirtualObjectMethod::drawsFlat(const raster::FrameContext& frame) const {
+  return !numbersByGl_ && frame.merge == raster::Merge::Ids && SceneTriangles::fits(frame.scene.geometry()) &&
+         !hasCutOuts(frame.scene);
 }
 
 /// Puts a mirror's virtual vertices where they belong, if it is one that can be added: all it shows are

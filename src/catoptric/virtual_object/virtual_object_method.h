@@ -56,10 +56,10 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   void partsMoved(const scene::WorldGeometry& world, std::span<const std::uint32_t> parts) override;
   void render(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
               raster::Level& target) override;
-  /// May render() and addTogether() be given this chain of flat mirrors alone? The virtual object is the
+  /// May render() and addTogether() be given chains of flat mirrors alone? The virtual object is the
   /// scene itself then, seen by the mirrored eye; it is drawn as numbers, where the processor draws and
   /// shades.
-  [[nodiscard]] bool drawsFlat(const raster::FrameContext& frame, const raster::Chain& chain) const;
+  [[nodiscard]] bool drawsFlat(const raster::FrameContext& frame) const;
   /// Adds what the last mirrors of some of the chains show to the radiance of frame.addsTo, which is not
   /// null, all at once: of flat and convex ones, where the processor draws numbers and shades. Returns the
   /// others, for render().
