@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From an edge to the vertex at its middle: open addressing.
+// From an edge to a number, as that of the vertex at its middle: open addressing.
 #pragma once
 
 #include <cstddef>
@@ -22,6 +22,9 @@ class EdgeTable {
     if (keys_[slot] == kFree) keys_[slot] = key, ++count_;
     return values_[slot];
   }
+
+  /// kNoId: no such edge.
+  [[nodiscard]] std::uint32_t find(std::uint64_t key) const { return values_[findSlot(key)]; }
 
  private:
   static constexpr std::uint64_t kFree = ~std::uint64_t(0);

@@ -19,6 +19,11 @@ std::uint64_t computeMortonCode(const glm::uvec3& cell) {
   return code;
 }
 
+/// Of an edge between two vertices.
+std::uint64_t keyOf(std::uint32_t a, std::uint32_t b) {
+  return std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
+}
+
 class PartCutter {
  public:
   PartCutter(const scene::WorldGeometry& geometry, const CutOrder& order, std::atomic<std::size_t>& made)
@@ -31,6 +36,7 @@ class PartCutter {
   PartPieces cut() {
     const std::size_t triangles = order_.corners.size() / 3;
     pieces_.reserve(2 * std::min<std::size_t>(order_.part.vertexCount, 3 * triangles));
+    if (order_.inPlaneK > order_.k) findOutlines();
     for (std::size_t t = 0; t < triangles; ++t) {
       const std::uint32_t* corner = &order_.corners[3 * t];
       if (mirror_ && turnsAway(corner)) continue;
@@ -45,6 +51,9 @@ class PartCutter {
 
  private:
   using Corners = std::array<std::uint32_t, 3>;
+  /// In outlines_, besides the one side on which a triangle was found: twice its number, plus one where it
+  /// goes along the edge upwards.
+  static constexpr std::uint32_t kSeveral = 0xfffffffeu - 1, kInPlane = 0xfffffffeu;
 
   /// Does the reflector's bounding sphere lie behind the triangle's plane?
   [[nodiscard]] bool turnsAway(const std::uint32_t* corner) const {
@@ -53,6 +62,45 @@ class PartCutter {
     const dvec3 normal = glm::cross(b - a, c - a);
     constexpr double kRounding = 1e-5;
     return glm::dot(normal, mirror_->centre - a) < -(1.0 + kRounding) * mirror_->radius * glm::length(normal);
+  }
+
+  /// Long edges of the uncut triangles, without those on whose other side the plane goes on.
+  void findOutlines() {
+    const std::size_t triangles = order_.corners.size() / 3;
+    for (std::uint32_t t = 0; t < triangles; ++t) {
+      const std::uint32_t* corner = &order_.corners[3 * std::size_t(t)];
+      for (int k = 0; k < 3; ++k) {
+        const std::uint32_t a = copyVertex(corner[k]), b = copyVertex(corner[(k + 1) % 3]);
+        if (!isLonger(a, b, order_.k)) continue;
+        std::uint32_t& outline = outlines_[keyOf(a, b)];
+        const std::uint32_t side = 2 * t + (a < b ? 1 : 0);
+        if (outline == core::kNoId)
+          outline = side;
+        else
+          outline = outline < kSeveral && (outline ^ side) % 2 == 1 && areInOnePlane(outline / 2, t)
+                        ? kInPlane
+                        : kSeveral;
+      }
+    }
+  }
+
+  /// Are they, with their fronts to the same side?
+  [[nodiscard]] bool areInOnePlane(std::uint32_t s, std::uint32_t t) const {
+    constexpr float kSine = 1e-3f;
+    vec3 normals[2];
+    for (int i = 0; i < 2; ++i) {
+      const std::uint32_t* corner = &order_.corners[3 * std::size_t(i == 0 ? s : t)];
+      const vec3& a = geometry_.positions[corner[0]];
+      normals[i] = glm::cross(geometry_.positions[corner[1]] - a, geometry_.positions[corner[2]] - a);
+    }
+    const vec3 sine = glm::cross(normals[0], normals[1]);
+    const float cosine = glm::dot(normals[0], normals[1]);
+    return cosine > 0 && glm::dot(sine, sine) < kSine * kSine * cosine * cosine;
+  }
+
+  [[nodiscard]] bool isOutline(std::uint32_t a, std::uint32_t b) const {
+    const std::uint32_t outline = outlines_.find(keyOf(a, b));
+    return outline != core::kNoId && outline != kInPlane;
   }
 
   /// Its number among the pieces.
@@ -119,15 +167,20 @@ class PartCutter {
     isBehind_.push_back(order_.distance.isBehind(pieces_.positions.back()));
   }
 
-  [[nodiscard]] bool isTooLong(std::uint32_t a, std::uint32_t b) const {
+  [[nodiscard]] bool isLonger(std::uint32_t a, std::uint32_t b, float k) const {
     const vec3 edge = pieces_.positions[b] - pieces_.positions[a];
     const float length = std::sqrt(glm::dot(edge, edge));
     const float d = std::max(0.5f * (distances_[a] + distances_[b] - length), 0.0f);
-    return length > order_.k * (d + order_.floor);
+    return length > k * (d + order_.floor);
+  }
+
+  [[nodiscard]] bool isTooLong(std::uint32_t a, std::uint32_t b) const {
+    if (!isLonger(a, b, order_.k)) return false;
+    return isLonger(a, b, order_.inPlaneK) || isOutline(a, b);
   }
 
   std::uint32_t middleOf(std::uint32_t a, std::uint32_t b) {
-    std::uint32_t& middle = middles_[std::uint64_t(std::min(a, b)) << 32 | std::max(a, b)];
+    std::uint32_t& middle = middles_[keyOf(a, b)];
     if (middle != core::kNoId) return middle;
     middle = std::uint32_t(pieces_.positions.size());
     const auto addMean = [a, b](auto& values) { values.push_back((values[a] + values[b]) * 0.5f); };
@@ -135,6 +188,10 @@ class PartCutter {
     addMean(pieces_.uv0), addMean(pieces_.uv1), addMean(pieces_.colors);
     pieces_.tangents.back().w = pieces_.tangents[a].w;  // handedness is no length
     measureLastVertex();
+    if (isOutline(a, b)) {
+      outlines_[keyOf(a, middle)] = kSeveral;
+      outlines_[keyOf(middle, b)] = kSeveral;
+    }
     return middle;
   }
 
@@ -184,6 +241,7 @@ class PartCutter {
   std::atomic<std::size_t>& made_;
   std::vector<std::uint32_t> numberOf_;  ///< by vertex of the part
   EdgeTable middles_;
+  EdgeTable outlines_;  ///< by edge
   std::vector<Corners> stack_;
   std::vector<float> distances_;        ///< to the mirror, by vertex of the pieces
   std::vector<std::uint8_t> isBehind_;  ///< likewise

@@ -38,7 +38,10 @@ struct CutOrder {
   const ReflectorDistance& distance;
   const scene::Reflector* mirror = nullptr;  ///< triangles that turn their back to all of it are left out
   float k = 0, floor = 1;                    ///< edges longer than k (d + floor) are split
-  std::size_t budget = 0;                    ///< of triangles: when `made` has more, cutting stops
+  /// In place of k, if it is larger, for edges on both sides of which one plane goes on: between two
+  /// triangles in one plane, and those that cutting makes.
+  float inPlaneK = 0;
+  std::size_t budget = 0;  ///< of triangles: when `made` has more, cutting stops
 };
 
 /// `made` counts the triangles of all parts. Vertices come in the order in which triangles use them,

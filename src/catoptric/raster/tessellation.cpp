@@ -17,6 +17,10 @@
 //      L^2 / (16 c), a quarter of what the formula says. Where each pixel's own ray meets the triangle, and
 //      depth and interpolation add nothing, edges are therefore split at k (d + kByRays c), if the
 //      mirror is as large as kByRays c.
+//      There, in a convex mirror that does not turn round, edges that may be seen as outlines are held to
+//      kOutlineByRays k, and those on both sides of which one plane goes on to kInPlaneByRays k: which of the
+//      two triangles a pixel is given does not matter then, their depths alone do. (In one that turns round
+//      large triangles lie across the rim, and what they hide or leave free there does matter.)
 //   3. Before a part is cut: one that is nowhere nearer than d is seen, in a mirror of focal length c, c /
 //      (d + c) times as large as on the mirror's surface. The coarsest level of detail is taken whose error
 //      is then at most kLevelShare of the bound. Where the part is a mirror, a turn of its normals by an
@@ -49,6 +53,7 @@ namespace {
 
 constexpr double kSagFactor = 0.06;
 constexpr float kByRays = 2;
+constexpr double kOutlineByRays = 0.6, kInPlaneByRays = 2;
 constexpr double kLeastTurnedPx = 700;
 constexpr double kBudgetStep = 1.35;
 constexpr double kLargestTurn = 0.03;  // radians
@@ -158,12 +163,13 @@ TessellatedObjects makeUncutObjects(const scene::WorldGeometry& world) {
 
 double findTessellationSize(const scene::Reflector& reflector, const dvec3& eye,
                             const scene::CameraFrame& camera) {
-  constexpr double kSmallest = 175, kLargest = 2800;
+  constexpr double kSmallest = 43.75, kLargest = 2800;
   const double distance = glm::length(eye - reflector.centre);
   const double pixelsPerRadian = camera.heightPx / (2.0 * camera.tanHalfFovY);
   const double diameter = 2.0 * reflector.radius * pixelsPerRadian;  // at distance 1
   double size = kSmallest;
-  while (size < kLargest && size * distance < diameter) size *= 2.0;
+  for (int step = 1; size < kLargest && size * distance < diameter; ++step)
+    size = kSmallest * std::exp2(0.5 * step);
   return size;
 }
 
@@ -215,6 +221,10 @@ CutOrder ReflectorTessellation::makeOrder(const scene::WorldGeometry& geometry, 
                  .k = float(k_),
                  .floor = floor,
                  .budget = budget_};
+  if (options_.coarseInPlanes && isShadedByRays(p) && !distance_.turnsRound()) {
+    order.k = float(kOutlineByRays * k_);
+    order.inPlaneK = float(kInPlaneByRays * k_);
+  }
   if (const DetailLevel* level = findLevel(geometry, p)) {
     order.corners = options_.levels->corners(*level);
     order.firstTriangle = level->firstTriangle;

@@ -3,8 +3,9 @@
 //
 // An edge is split at its middle while it is longer than k (d + c): d the distance of its middle to the
 // reflector, c the reflector's focal length. The decision reads the two end positions only, so neighbours
-// decide alike, even where vertices are duplicated: no cracks. It depends on the eye only by the mirror's
-// size on the screen, in steps of two: nothing moves by more than the bound while the camera does. New
+// decide alike, even where vertices are duplicated: no cracks. (Where one plane goes on across an edge that
+// two triangles share, both of them allow it more.) It depends on the eye only by the mirror's size on the
+// screen, in steps of the root of two: nothing moves by more than the bound while the camera does. New
 // attributes are means of the ends and are *not* renormalised: the fragment shader interpolates and
 // normalises exactly as it does on the uncut triangle, so shading does not change. What the mirror shows so
 // small that fewer triangles would do is cut from a coarser level (levels_of_detail.h).
@@ -65,6 +66,9 @@ struct TessellationOptions {
   /// By part: 1 where each pixel's own ray meets the triangle that is drawn there, so that only its outline
   /// has to be right; empty: nowhere.
   std::span<const std::uint8_t> shadedByRays{};
+  /// There, and in a mirror that does not turn round: may edges across which a plane goes on be longer, and
+  /// are outlines to be finer in return? For convex mirrors.
+  bool coarseInPlanes = false;
   /// Parts that the mirror shows small are cut from the coarsest of these that misses them by no more than
   /// kLevelShare of maxErrorPx; null: from the world's own triangles.
   const LevelsOfDetail* levels = nullptr;
@@ -73,8 +77,8 @@ struct TessellationOptions {
 inline constexpr double kLevelShare = 0.5;  ///< of the error, that levels of detail may take up
 
 /// For TessellationOptions::reflectorDiameterPx: the diameter of the reflector's bounding sphere as this
-/// camera sees it from `eye` (which planar mirrors may have moved), rounded up to 175 times a power of two,
-/// from 175 to 2800.
+/// camera sees it from `eye` (which planar mirrors may have moved), rounded up to 2800 over a power of the
+/// root of two, from 44 to 2800.
 [[nodiscard]] double findTessellationSize(const scene::Reflector& reflector, const dvec3& eye,
                                           const scene::CameraFrame& camera);
 

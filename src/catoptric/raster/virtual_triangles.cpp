@@ -70,7 +70,8 @@ CATOPTRIC_INLINE EightInts findSides(const Vectors& normal, const Vectors (&offs
   return front | behind;
 }
 
-/// Bits for those with a None corner or without a Reflected one; `mixed`: for those of two kinds.
+/// Bits for those with a None corner, or with neither a Reflected nor three PastBoundary ones; `mixed`: for
+/// those of two kinds.
 unsigned findKindless(const Judge& judge, const std::uint32_t* corners, unsigned& mixed) {
   unsigned dropped = 0;
   mixed = 0;
@@ -78,8 +79,9 @@ unsigned findKindless(const Judge& judge, const std::uint32_t* corners, unsigned
     unsigned present = 0;  // a bit for each kind
     for (int k = 0; k < 3; ++k) present |= 1u << unsigned(judge.kinds[corners[k]]);
     constexpr unsigned kNone = 1u << unsigned(VertexKind::None),
-                       kReflected = 1u << unsigned(VertexKind::Reflected);
-    dropped |= unsigned((present & (kNone | kReflected)) != kReflected) << i;
+                       kReflected = 1u << unsigned(VertexKind::Reflected),
+                       kPastBoundary = 1u << unsigned(VertexKind::PastBoundary);
+    dropped |= unsigned((present & (kNone | kReflected)) != kReflected && present != kPastBoundary) << i;
     mixed |= unsigned(present != kReflected) << i;
   }
   return dropped;

@@ -13,8 +13,10 @@ namespace catoptric::raster {
 
 /// None: nothing sensible exists, drop the vertex's triangles. DoublyVirtual: not reflected, but placed
 /// outside the mirror's image (or in front of the mirror's surface, where the depth test against the mirror
-/// removes it), so that it closes triangles that are partly reflected.
-enum class VertexKind : std::uint8_t { None, Reflected, DoublyVirtual };
+/// removes it), so that it closes triangles that are partly reflected. PastBoundary: doubly virtual, and
+/// where an open mirror that went on would reflect it, so that three of them are still a triangle that may
+/// lie across a corner of the mirror.
+enum class VertexKind : std::uint8_t { None, Reflected, DoublyVirtual, PastBoundary };
 
 /// Indices into the TessellatedObjects' vertices; `parts` runs parallel to TessellatedObjects::parts
 /// (firstVertex and vertexCount copied). Reused from frame to frame: nothing is allocated once the capacity
@@ -25,12 +27,12 @@ struct VirtualTriangles {
   std::vector<std::uint8_t> isKept;  ///< by triangle of the TessellatedObjects
 };
 
-/// Drops triangles with a None vertex, those without any Reflected vertex, and those that are turned inside
-/// out (their real face and their image do not have the mirrored orientation, which happens to triangles that
-/// reach around the reflector's shadow; drawn, they would sweep across the mirror's image). The winding is
-/// that of the real triangle, so seen from the eye it is reversed. `reflectionPoints`: J of every vertex.
-/// `scenePoints`: where the vertices stand as the mirror sees them, if flat mirrors behind it have moved
-/// them; empty for objects.positions.
+/// Drops triangles with a None vertex, those without any Reflected or three PastBoundary ones, and those that
+/// are turned inside out (their real face and their image do not have the mirrored orientation, which happens
+/// to triangles that reach around the reflector's shadow; drawn, they would sweep across the mirror's image).
+/// The winding is that of the real triangle, so seen from the eye it is reversed. `reflectionPoints`: J of
+/// every vertex. `scenePoints`: where the vertices stand as the mirror sees them, if flat mirrors behind it
+/// have moved them; empty for objects.positions.
 void selectVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
                             std::span<const vec3> virtualPositions, std::span<const VertexKind> kinds,
                             std::span<const vec3> reflectionPoints, VirtualTriangles& out,

@@ -13,14 +13,18 @@
 
 namespace catoptric::virtual_object {
 
-/// Which triangles are drawn: the cheap question first.
+/// Which triangles are drawn: the cheap questions first.
 void VirtualObjectMethod::markTriangles(const raster::FrameContext& frame, NumberedMirror& m) {
   const PictureView picture{mat4(m.view.clipFromDraw), m.view.parent->widthPx, m.view.parent->heightPx,
                             m.view.windingFlipped};
-  m.triangles.isKept.assign(m.objects->indices.size() / 3, 1);
+  const ReflectedCone cone = m.prepared
+                                 ? m.prepared->solver->reflectedCone()
+                                 : makePictureCone(m.view.clipFromDraw, m.view.drawEye,
+                                                   {picture.widthPx, picture.heightPx}, m.chain->bounds);
+  m.culled = m.runs->mark(cone, m.prepared ? m.chain->drawFromWorld : dmat4(1.0), m.triangles.isKept);
   projectVertices(picture, m.virtualPositions, m.screen);
-  m.culled = dropUnseenTriangles(*m.objects, frame.scene.geometry(), picture, m.chain->bounds, m.screen,
-                                 m.triangles.isKept);
+  m.culled += dropUnseenTriangles(*m.objects, frame.scene.geometry(), picture, m.chain->bounds, m.screen,
+                                  m.triangles.isKept);
   if (!m.prepared) return;
   const Prepared& p = *m.prepared;
   raster::dropVirtualTriangles(p.objects, m.view.drawEye, p.virtualPositions, p.kinds, p.reflectionPoints,
@@ -114,6 +118,7 @@ VirtualObjectMethod::NumberedMirror& VirtualObjectMethod::beginMirror(std::size_
   m.prepared = prepared;
   if (prepared) {
     m.objects = &prepared->objects;
+    m.runs = &prepared->triangleRuns;
     m.virtualPositions = prepared->virtualPositions;
     m.triangleParts = frame.scene.levels().triangleParts();
     m.isNumbered = prepared->isNumbered;
@@ -126,8 +131,9 @@ VirtualObjectMethod::NumberedMirror& VirtualObjectMethod::beginMirror(std::size_
 /// All of the scene but the mirror.
 void VirtualObjectMethod::beginFlat(const raster::FrameContext& frame, NumberedMirror& m) {
   const scene::WorldGeometry& world = frame.scene.geometry();
-  if (!uncut_) uncut_ = std::make_unique<raster::TessellatedObjects>(raster::makeUncutObjects(world));
-  m.objects = uncut_.get();
+  if (!uncut_) uncut_ = std::make_unique<Uncut>(world);
+  m.objects = &uncut_->objects;
+  m.runs = &uncut_->runs;
   m.virtualPositions = world.positions;
   m.triangleParts = world.triangleParts;
   m.isNumbered.assign(world.parts.size(), 1);

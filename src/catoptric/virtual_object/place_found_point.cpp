@@ -38,7 +38,7 @@ VirtualVertex VirtualObjectSolver::solveFound(const dvec3& scenePoint) const {
     const bool isInFront =
         glm::dot(found->normal, onward) > 0 || glm::length(onward) <= kOnSurface * mesh_->radius();
     if (isInFront) {
-      const VertexKind kind = found->isPastBoundary ? VertexKind::DoublyVirtual : VertexKind::Reflected;
+      const VertexKind kind = found->isPastBoundary ? VertexKind::PastBoundary : VertexKind::Reflected;
       return {formulas::placeBehind(eye_, found->position, scenePoint), found->position, found->at, 1, kind};
     }
   }

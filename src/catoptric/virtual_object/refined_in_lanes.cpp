@@ -70,18 +70,19 @@ void VirtualObjectSolver::solveGroup(const VertexSink& sink, std::size_t first, 
     else
       sink.write(first + lane, VirtualVertex{});
   }
-  const auto write = [&](std::size_t lane, bool isOutside) {
-    sink.write(first + lane, laneOf(group.virtualPosition, lane), laneOf(group.position, lane),
-               isOutside ? VertexKind::DoublyVirtual : VertexKind::Reflected);
+  const auto write = [&](std::size_t lane, VertexKind kind) {
+    sink.write(first + lane, laneOf(group.virtualPosition, lane), laneOf(group.position, lane), kind);
   };
   // 1
   hideLanes(laneView_, group);
-  forEachLane(group.hidden, [&](std::size_t lane) { write(lane, true); });
+  forEachLane(group.hidden, [&](std::size_t lane) { write(lane, VertexKind::DoublyVirtual); });
   group.wanted &= ~group.hidden;
   if (group.wanted == 0) return;
   // 2
   searchLanes(laneView_, group);
-  forEachLane(group.found, [&](std::size_t lane) { write(lane, (group.isOutside >> lane & 1u) != 0); });
+  forEachLane(group.found, [&](std::size_t lane) {
+    write(lane, (group.isOutside >> lane & 1u) != 0 ? VertexKind::PastBoundary : VertexKind::Reflected);
+  });
   if (places != nullptr)
     for (std::size_t lane = 0; lane < count; ++lane) {
       const bool isFound = (group.found >> lane & 1u) != 0, isHard = (group.hard >> lane & 1u) != 0;
@@ -94,7 +95,7 @@ void VirtualObjectSolver::solveGroup(const VertexSink& sink, std::size_t first, 
     if (const auto hiding = findHidingPoint(point, false))
       sink.write(first + lane, mirrorHidden(*hiding, point));
     else
-      write(lane, true);
+      write(lane, VertexKind::DoublyVirtual);
   });
   // 3
   forEachLane(group.hard, [&](std::size_t lane) { solveHard(sink, first + lane); });

@@ -7,6 +7,8 @@
 namespace catoptric::virtual_object {
 namespace {
 
+constexpr std::size_t kTriangleRun = 32;
+
 /// ReflectedCone::mayMeet() without an angle for each ball.
 class ConeTest {
  public:
@@ -25,8 +27,12 @@ class ConeTest {
     const double covered = both / distance;  // the sine of what both balls cover
     if (isWide_ && covered >= sine_) return true;
     // The angle from the axis against the half angle and what is covered, by their cosines.
-    return !(glm::dot(offset, cone_.axis) <
-             distance * (cosine_ * std::sqrt(1.0 - covered * covered) - sine_ * covered));
+    if (glm::dot(offset, cone_.axis) <
+        distance * (cosine_ * std::sqrt(1.0 - covered * covered) - sine_ * covered))
+      return false;
+    return !cone_.sides || std::none_of(cone_.sides->begin(), cone_.sides->end(), [&](const dvec3& normal) {
+      return glm::dot(offset, normal) < -both;
+    });
   }
 
  private:
@@ -34,6 +40,45 @@ class ConeTest {
   bool meetsAll_, isWide_;
   double sine_, cosine_;
 };
+
+/// Calls visit(direction) for the rays at the corners of the triangles that are seen.
+template <class Visit>
+void forEachRay(const ReflectorMesh& mesh, const ReflectedRays& rays, const Visit& visit) {
+  for (std::size_t t = 0; t < mesh.ordinaryCount(); ++t)
+    if (rays.isMapped[t])
+      for (std::size_t k = 0; k < 3; ++k) visit(rays.directions[mesh.corners()[3 * t + k]]);
+}
+
+/// Across the axis, along the longer and the shorter extent of the rays.
+std::array<dvec3, 2> findExtents(const ReflectorMesh& mesh, const ReflectedRays& rays, const dvec3& axis) {
+  const MapFrame frame = makeMapFrame(axis);
+  double xx = 0, xy = 0, yy = 0;
+  forEachRay(mesh, rays, [&](const dvec3& direction) {
+    const double u = glm::dot(direction, frame.x), v = glm::dot(direction, frame.y);
+    xx += u * u, xy += u * v, yy += v * v;
+  });
+  const double turn = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  const dvec3 longer = std::cos(turn) * frame.x + std::sin(turn) * frame.y;
+  return {longer, glm::cross(axis, longer)};
+}
+
+/// All rays on their inner sides, `margin` radians away. For a cone narrower than a half space.
+std::array<dvec3, 4> findSides(const ReflectorMesh& mesh, const ReflectedRays& rays, const dvec3& axis,
+                               double margin) {
+  std::array<dvec3, 4> sides;
+  const std::array<dvec3, 2> extents = findExtents(mesh, rays, axis);
+  for (std::size_t i = 0; i < 2; ++i) {
+    double least = 0, most = 0;  // radians from the axis
+    forEachRay(mesh, rays, [&](const dvec3& direction) {
+      const double angle = std::atan2(glm::dot(direction, extents[i]), glm::dot(direction, axis));
+      least = std::min(least, angle), most = std::max(most, angle);
+    });
+    least -= margin, most += margin;
+    sides[2 * i] = std::cos(least) * extents[i] - std::sin(least) * axis;
+    sides[2 * i + 1] = std::sin(most) * axis - std::cos(most) * extents[i];
+  }
+  return sides;
+}
 
 }  // namespace
 
@@ -46,9 +91,7 @@ ReflectedCone makeReflectedCone(const ReflectorMesh& mesh, const ReflectedRays& 
   cone.centre = mesh.centre();
   cone.radius = mesh.bodyRadius();
   dvec3 sum(0);
-  for (std::size_t t = 0; t < mesh.ordinaryCount(); ++t)
-    if (rays.isMapped[t])
-      for (std::size_t k = 0; k < 3; ++k) sum += rays.directions[mesh.corners()[3 * t + k]];
+  forEachRay(mesh, rays, [&](const dvec3& direction) { sum += direction; });
   if (!(glm::length(sum) > 0)) {
     cone.halfAngleRadians = glm::pi<double>();
     return cone;
@@ -56,7 +99,7 @@ ReflectedCone makeReflectedCone(const ReflectorMesh& mesh, const ReflectedRays& 
   cone.axis = glm::normalize(sum);
   // Within a triangle normals are interpolated: its rays stay between those of the corners, but for terms of
   // the second order.
-  constexpr double kBetween = 0.25, kLeast = 1e-3;
+  constexpr double kBetween = 0.25, kLeast = 1e-3, kNarrow = 1.2;
   double leastCosine = 1, longestChord = 0;  // squared; between unit vectors
   for (std::size_t t = 0; t < mesh.ordinaryCount(); ++t) {
     if (!rays.isMapped[t]) continue;
@@ -70,8 +113,65 @@ ReflectedCone makeReflectedCone(const ReflectorMesh& mesh, const ReflectedRays& 
   }
   const double widest = std::acos(std::max(leastCosine, -1.0));
   const double largest = 2.0 * std::asin(std::min(0.5 * std::sqrt(longestChord), 1.0));
-  cone.halfAngleRadians = widest + kBetween * largest + kLeast;
+  const double margin = kBetween * largest + kLeast;
+  cone.halfAngleRadians = widest + margin;
+  if (cone.halfAngleRadians < kNarrow)
+    cone.sides = findSides(mesh, rays, cone.axis, margin / std::cos(widest));
   return cone;
+}
+
+ReflectedCone makePictureCone(const dmat4& clipFromWorld, const dvec3& eye, const ivec2& sizePx,
+                              const gl::Scissor& rectangle) {
+  constexpr double kMarginPx = 1;
+  const dmat4 rows = glm::transpose(clipFromWorld);
+  const dvec2 size(sizePx), first = dvec2(rectangle.x, rectangle.y) - kMarginPx,
+                            last = first + dvec2(rectangle.width, rectangle.height) + 2.0 * kMarginPx;
+  const dvec2 lower = 2.0 * first / size - 1.0, upper = 2.0 * last / size - 1.0;
+  std::array<dvec3, 4> sides;
+  for (int k = 0; k < 2; ++k) {
+    sides[std::size_t(k)] = glm::normalize(dvec3(rows[k] - lower[k] * rows[3]));
+    sides[std::size_t(k) + 2] = glm::normalize(dvec3(upper[k] * rows[3] - rows[k]));
+  }
+  std::array<dvec3, 4> corners;
+  ReflectedCone cone;
+  cone.axis = dvec3(0);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const dvec3 along = glm::normalize(glm::cross(sides[i], sides[(i + 1) % 4]));
+    corners[i] = glm::dot(along, dvec3(rows[3])) < 0 ? -along : along;
+    cone.axis += corners[i];
+  }
+  cone.centre = eye;
+  cone.axis = glm::normalize(cone.axis);
+  double leastCosine = 1;
+  for (const dvec3& corner : corners) leastCosine = std::min(leastCosine, glm::dot(corner, cone.axis));
+  cone.halfAngleRadians = std::acos(leastCosine) + 1e-6;
+  cone.sides = sides;
+  return cone;
+}
+
+TriangleRuns::TriangleRuns(std::span<const vec3> positions, std::span<const std::uint32_t> indices)
+    : triangles_(indices.size() / 3) {
+  for (std::size_t first = 0; first < triangles_; first += kTriangleRun) {
+    core::Box box;
+    for (std::size_t i = 3 * first; i < 3 * std::min(first + kTriangleRun, triangles_); ++i)
+      box.add(dvec3(positions[indices[i]]));
+    balls_.push_back({box.centre(), box.radius()});
+  }
+}
+
+std::size_t TriangleRuns::mark(const ReflectedCone& cone, const dmat4& coneFromWorld,
+                               std::vector<std::uint8_t>& mayMeet) const {
+  mayMeet.resize(triangles_);
+  const ConeTest test(cone);
+  std::size_t leftOut = 0;
+  for (std::size_t run = 0; run < balls_.size(); ++run) {
+    const dvec3 centre(coneFromWorld * dvec4(balls_[run].centre, 1.0));
+    const std::size_t first = run * kTriangleRun, count = std::min(kTriangleRun, triangles_ - first);
+    const bool isMet = test.mayMeet(centre, balls_[run].radius);
+    std::fill_n(&mayMeet[first], count, std::uint8_t(isMet));
+    leftOut += isMet ? 0 : count;
+  }
+  return leftOut;
 }
 
 VertexRuns::VertexRuns(const raster::TessellatedObjects& objects, std::size_t runLength)
@@ -97,7 +197,7 @@ void findReflectedRuns(const VertexRuns& runs, const ReflectedCone& cone, const 
                        std::vector<std::uint8_t>& mayReflect) {
   mayReflect.clear();
   const ConeTest test(cone);
-  for (const VertexRuns::Ball& ball : runs.balls()) {
+  for (const Ball& ball : runs.balls()) {
     const dvec3 centre(coneFromWorld * dvec4(ball.centre, 1.0));
     mayReflect.push_back(ball.radius >= 0 && test.mayMeet(centre, ball.radius));
   }

@@ -19,8 +19,9 @@ namespace {
 constexpr double kMapsServeWithin = 0.2;  // searches begin a tenth of the mirror's radius off at most
 
 /// What the parts of a mirror show is held against the scene's own triangles, pixel by pixel.
-raster::TessellationOptions withoutLevels(raster::TessellationOptions options) {
+raster::TessellationOptions forParts(raster::TessellationOptions options) {
   options.levels = nullptr;
+  options.coarseInPlanes = false;
   return options;
 }
 
@@ -33,9 +34,10 @@ VirtualObjectMethod::Prepared::Prepared(const scene::WorldGeometry& world, std::
       sizePx(options.reflectorDiameterPx),
       isFromBehind(flipped),
       mesh(world, reflector, ReflectorMeshOptions{.flipped = flipped}),
-      tessellation(world, reflector, mayBeInParts && !mesh.isConvex() ? withoutLevels(options) : options),
+      tessellation(world, reflector, mayBeInParts && !mesh.isConvex() ? forParts(options) : options),
       objects(tessellation.objects()),
       runs(objects, VirtualObjectSolver::kRunLength),
+      triangleRuns(objects.positions, objects.indices),
       pass(objects),
       virtualPositions(objects.positions.size()),
       reflectionPoints(objects.positions.size()),
@@ -48,6 +50,7 @@ void VirtualObjectMethod::Prepared::update(const scene::WorldGeometry& world) {
   tessellation.update(world, movedParts);
   movedParts.clear();
   runs = VertexRuns(objects, VirtualObjectSolver::kRunLength);
+  triangleRuns = TriangleRuns(objects.positions, objects.indices);
   pass.objectsChanged();
   numbered.reset();
   gpu.reset();
@@ -121,7 +124,7 @@ VirtualObjectMethod::Prepared& VirtualObjectMethod::prepareReflector(const raste
   std::vector<std::uint8_t> isPlain;
   for (std::uint32_t part = 0; part < world.parts.size(); ++part)
     isPlain.push_back((findCoverFlags(frame.scene, part) & (kCoverMasked | kCoverBlended)) == 0 ? 1 : 0);
-  if (drawing == Drawing::Numbered) options.shadedByRays = isPlain;
+  if (drawing == Drawing::Numbered) options.shadedByRays = isPlain, options.coarseInPlanes = true;
   slot = std::make_unique<Prepared>(world, *chain.curved, flipped, options, solver_ == Solver::Refined);
   for (const std::uint8_t isNumbered : isPlain) slot->isDrawn.push_back(isNumbered ? 0 : 1);
   slot->isNumbered = std::move(isPlain);

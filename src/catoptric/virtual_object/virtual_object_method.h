@@ -142,6 +142,7 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     const raster::TessellatedObjects& objects;  ///< of the tessellation
     std::vector<std::uint32_t> movedParts;      ///< since they were cut
     VertexRuns runs;
+    TriangleRuns triangleRuns;
     raster::VirtualObjectPass pass;
     std::unique_ptr<NumberedTriangles> numbered;    ///< made when first needed
     std::vector<std::uint8_t> isNumbered, isDrawn;  ///< by part: how it is drawn
@@ -160,6 +161,7 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     raster::SurfaceView view;
     Prepared* prepared = nullptr;  ///< of a curved one; null: a flat one
     const raster::TessellatedObjects* objects = nullptr;
+    const TriangleRuns* runs = nullptr;  ///< of the objects
     std::span<const vec3> virtualPositions;
     std::span<const std::uint32_t> triangleParts;  ///< by number
     std::vector<std::uint8_t> isNumbered;          ///< by part
@@ -267,8 +269,14 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   raster::VirtualTriangles triangles_;
   std::vector<raster::DrawRange> ranges_;
   std::vector<std::unique_ptr<NumberedMirror>> numberedMirrors_;
-  std::unique_ptr<raster::TessellatedObjects>
-      uncut_;  ///< the scene, for flat mirrors; made when first needed
+  /// The scene, for flat mirrors.
+  struct Uncut {
+    explicit Uncut(const scene::WorldGeometry& world)
+        : objects(raster::makeUncutObjects(world)), runs(world.positions, objects.indices) {}
+    raster::TessellatedObjects objects;
+    TriangleRuns runs;
+  };
+  std::unique_ptr<Uncut> uncut_;  ///< made when first needed
   std::vector<vec4> mirrorPositions_;
   NumberRaster raster_;
   NumberImage numbers_;

@@ -176,7 +176,7 @@ bool VirtualObjectSolver::isPastBoundary(const SurfacePoint& at) const {
 VirtualVertex VirtualObjectSolver::placeSearched(const SearchResult& found) const {
   const MirrorLaw& law = found.law;
   return {eye_ - law.toEye * (law.distanceEye + law.distancePoint), law.position, found.at, found.steps,
-          isPastBoundary(found.at) ? VertexKind::DoublyVirtual : VertexKind::Reflected};
+          isPastBoundary(found.at) ? VertexKind::PastBoundary : VertexKind::Reflected};
 }
 
 std::optional<VirtualVertex> VirtualObjectSolver::solveFrom(const SurfacePoint& start,
@@ -277,7 +277,7 @@ void VirtualObjectSolver::compute(Solver solver, std::span<const vec3> scenePoin
   // threads.
   if (places != nullptr) places->resize(scenePoints.size());
   const VertexSink sink{scenePoints, virtualPositions, kinds, reflectionPoints, places};
-  constexpr std::size_t kRunsPerTask = 4;
+  constexpr std::size_t kRunsPerTask = 16;
   const std::size_t runs = (scenePoints.size() + kRunLength - 1) / kRunLength;
   assert(mayReflect.empty() || mayReflect.size() == runs);
   core::parallelFor(runs, kRunsPerTask, [&](std::size_t firstRun, std::size_t endRun) {

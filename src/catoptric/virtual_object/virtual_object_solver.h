@@ -109,7 +109,7 @@ class VirtualObjectSolver {
 
   /// Vertices are solved in runs of this length, each by itself. Short ones, so that little that no ray comes
   /// near is kept for what stands in the same run.
-  static constexpr std::size_t kRunLength = 64;
+  static constexpr std::size_t kRunLength = 16;
 
   /// All spans have equal length, except that `reflectionPoints` (J, wanted by selectVirtualTriangles()) may
   /// be empty. Parallel, and for convex mirrors in the processor's vectors; the result does not depend on the

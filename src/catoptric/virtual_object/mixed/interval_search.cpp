@@ -84,7 +84,7 @@ IntervalSearch::Vertex IntervalSearch::search(std::uint32_t triangle, const dvec
   const bool isPastBoundary =
       t.isSkirt() || std::min({found.at.u, found.at.v, 1.0 - found.at.u - found.at.v}) < -kOutsideTriangle;
   return {vec3(eye_ - law.toEye * (law.distanceEye + law.distancePoint)), vec3(law.position),
-          found.at.triangle, isPastBoundary ? VertexKind::DoublyVirtual : VertexKind::Reflected};
+          found.at.triangle, isPastBoundary ? VertexKind::PastBoundary : VertexKind::Reflected};
 }
 
 std::optional<dvec3> IntervalSearch::find(const dvec3& scenePoint, std::size_t interval) const {
@@ -133,12 +133,13 @@ void markIntervalTriangles(const raster::TessellatedObjects& objects, const Inte
   isKept.resize(objects.indices.size() / 3);
   core::parallelFor(isKept.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
-      int reflected = 0, none = 0;
+      int reflected = 0, pastBoundary = 0, none = 0;
       for (std::size_t k = 0; k < 3; ++k) {
         const VertexKind kind = vertices.kinds[objects.indices[3 * t + k]];
-        reflected += kind == VertexKind::Reflected, none += kind == VertexKind::None;
+        reflected += kind == VertexKind::Reflected, pastBoundary += kind == VertexKind::PastBoundary;
+        none += kind == VertexKind::None;
       }
-      isKept[t] = none == 0 && reflected > 0 ? 1 : 0;
+      isKept[t] = none == 0 && (reflected > 0 || pastBoundary == 3) ? 1 : 0;
     }
   });
 }
