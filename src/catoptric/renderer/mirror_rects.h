@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "catoptric/core/math.h"
@@ -16,6 +17,12 @@ namespace catoptric::renderer {
 /// `clipFromWorld`: a perspective.
 [[nodiscard]] std::optional<gl::Scissor> findSphereRect(const dmat4& clipFromWorld, const dvec3& centre,
                                                         double radius, int widthPx, int heightPx);
+
+/// Likewise the rectangle that holds points of the world and the triangles between them; nothing if one of
+/// them does not lie before the eye: then this says nothing.
+[[nodiscard]] std::optional<gl::Scissor> findPointsRect(const dmat4& clipFromWorld,
+                                                        std::span<const vec3> points, int widthPx,
+                                                        int heightPx);
 
 /// Rectangles that hold all pixels of all mirrors; they may overlap. One for the whole picture where several
 /// would not be less.

@@ -22,7 +22,9 @@ void VirtualObjectMethod::markTriangles(const raster::FrameContext& frame, Numbe
                                  : makePictureCone(m.view.clipFromDraw, m.view.drawEye,
                                                    {picture.widthPx, picture.heightPx}, m.chain->bounds);
   m.culled = m.runs->mark(cone, m.prepared ? m.chain->drawFromWorld : dmat4(1.0), m.triangles.isKept);
-  projectVertices(picture, m.virtualPositions, m.screen);
+  projectVertices(
+      picture, m.virtualPositions, m.screen,
+      m.prepared ? std::span<const std::uint8_t>(m.prepared->mayReflect) : std::span<const std::uint8_t>());
   m.culled += dropUnseenTriangles(*m.objects, frame.scene.geometry(), picture, m.chain->bounds, m.screen,
                                   m.triangles.isKept);
   if (!m.prepared) return;

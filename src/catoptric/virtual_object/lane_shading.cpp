@@ -11,6 +11,7 @@ namespace catoptric::virtual_object {
 namespace {
 
 constexpr int kBandsPerThread = 8;
+constexpr std::size_t kPixelsPerBand = 4096;  // fewer leave more of the lanes empty, part by part
 
 /// Step 1, of rows [begin, end).
 void sortPixels(const LaneJob& job, std::size_t begin, std::size_t end, LaneBand& band) {
@@ -99,7 +100,10 @@ LaneJob LaneShading::makeJob(const raster::FrameContext& frame, const raster::Ch
 
 void LaneShading::shade(const LaneJob& job) {
   const auto height = std::size_t(images_.bounds.height);
-  const std::size_t bands = std::min(height, std::size_t(kBandsPerThread * core::threadCount()));
+  const std::size_t bands =
+      std::clamp<std::size_t>(height * std::size_t(images_.bounds.width) / kPixelsPerBand,
+                              std::min<std::size_t>(height, core::threadCount()),
+                              std::min(height, std::size_t(kBandsPerThread * core::threadCount())));
   bands_.resize(std::max(bands_.size(), bands));
   core::parallelFor(bands, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)

@@ -9,6 +9,7 @@
 #include "catoptric/core/eight_lanes.h"
 #include "catoptric/core/parallel.h"
 #include "catoptric/raster/eight_triangles.h"
+#include "catoptric/virtual_object/virtual_object_solver.h"
 
 namespace catoptric::virtual_object {
 namespace {
@@ -18,6 +19,7 @@ using core::EightInts;
 using core::larger;
 using core::toBits;
 
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kSnap = 1.0f / 32;  // rasterizers round corners to 1/16 of a pixel at worst, most to 1/256
 constexpr std::size_t kVerticesPerTask = 16384, kTrianglesPerTask = 4096;
 
@@ -89,20 +91,54 @@ struct FindSeen {
   }
 };
 
+/// From virtual vertices to pixels.
+struct Projection {
+  mat4 clipFromDraw;
+  vec2 half;  ///< of the picture's size
+  std::span<const vec3> positions;
+};
+
+struct ProjectRange {
+  static CATOPTRIC_INLINE void run(const Projection& projection, const std::size_t& first,
+                                   const std::size_t& last, std::vector<vec3>& screen) {
+    const mat4& m = projection.clipFromDraw;
+    const auto row = [&](int i, const Eight(&p)[3]) __attribute__((always_inline)) {
+      return m[0][i] * p[0] + m[1][i] * p[1] + m[2][i] * p[2] + m[3][i];
+    };
+    for (std::size_t begin = first; begin < last; begin += core::kLanes) {
+      std::uint32_t which[core::kLanes];
+      for (std::uint32_t i = 0; i < std::uint32_t(core::kLanes); ++i)
+        which[i] = std::uint32_t(std::min(begin + i, last - 1));
+      Eight p[3];
+      core::gatherTriples(&projection.positions.data()->x, which, 1, p);
+      const Eight w = row(3, p), inverse = w > 0.0f ? 1.0f / w : Eight{} + kNan;
+      const Eight x = projection.half.x * (row(0, p) * inverse + 1.0f),
+                  y = projection.half.y * (row(1, p) * inverse + 1.0f);
+      const std::size_t count = std::min<std::size_t>(core::kLanes, last - begin);
+      for (std::size_t i = 0; i < count; ++i) screen[begin + i] = vec3(x[i], y[i], inverse[i]);
+    }
+  }
+};
+
 }  // namespace
 
-void projectVertices(const PictureView& view, std::span<const vec3> positions, std::vector<vec3>& screen) {
-  const mat4& m = view.clipFromDraw;
+void projectVertices(const PictureView& view, std::span<const vec3> positions, std::vector<vec3>& screen,
+                     std::span<const std::uint8_t> mayReflect) {
+  constexpr std::size_t kRun = VirtualObjectSolver::kRunLength;
   const vec2 half(0.5f * float(view.widthPx), 0.5f * float(view.heightPx));
+  const Projection projection{view.clipFromDraw, half, positions};
   screen.resize(positions.size());
-  core::parallelFor(screen.size(), kVerticesPerTask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const vec3& p = positions[i];
-      const float x = m[0].x * p.x + m[1].x * p.y + m[2].x * p.z + m[3].x;
-      const float y = m[0].y * p.x + m[1].y * p.y + m[2].y * p.z + m[3].y;
-      const float w = m[0].w * p.x + m[1].w * p.y + m[2].w * p.z + m[3].w;
-      const float inverse = w > 0.0f ? 1.0f / w : std::numeric_limits<float>::quiet_NaN();
-      screen[i] = vec3(half * (vec2(x, y) * inverse + 1.0f), inverse);
+  const std::size_t runs = (screen.size() + kRun - 1) / kRun;
+  core::parallelFor(runs, kVerticesPerTask / kRun, [&](std::size_t firstRun, std::size_t endRun) {
+    for (std::size_t run = firstRun, end = 0; run < endRun; run = end) {
+      const bool isWanted = mayReflect.empty() || mayReflect[run] != 0;
+      end = run + 1;
+      while (end < endRun && (mayReflect.empty() || mayReflect[end] != 0) == isWanted) ++end;
+      const std::size_t first = run * kRun, last = std::min(end * kRun, screen.size());
+      if (isWanted)
+        core::runOnWidestVectors<ProjectRange>(projection, first, last, screen);
+      else
+        std::fill(screen.begin() + std::ptrdiff_t(first), screen.begin() + std::ptrdiff_t(last), vec3(kNan));
     }
   });
 }

@@ -44,9 +44,10 @@ struct PictureView {
   bool windingFlipped = false;  ///< fronts turn clockwise
 };
 
-/// Virtual vertices: pixels and 1 / w; NaN where they do not lie before the eye.
+/// Virtual vertices: pixels and 1 / w; NaN where they do not lie before the eye, and those of runs that have
+/// a 0 in `mayReflect` (findReflectedRuns(); may be empty for all ones).
 void projectVertices(const PictureView& view, std::span<const vec3> virtualPositions,
-                     std::vector<vec3>& screen);
+                     std::vector<vec3>& screen, std::span<const std::uint8_t> mayReflect = {});
 
 /// Clears `isKept` of triangles in which no pixel of `bounds` has its centre, and of those that turn their
 /// back to the eye (where their part has none). How many there were. `screen`: projectVertices().

@@ -163,9 +163,11 @@ std::size_t TriangleRuns::mark(const ReflectedCone& cone, const dmat4& coneFromW
                                std::vector<std::uint8_t>& mayMeet) const {
   mayMeet.resize(triangles_);
   const ConeTest test(cone);
+  const bool isMoved = coneFromWorld != dmat4(1.0);
   std::size_t leftOut = 0;
   for (std::size_t run = 0; run < balls_.size(); ++run) {
-    const dvec3 centre(coneFromWorld * dvec4(balls_[run].centre, 1.0));
+    const dvec3& ball = balls_[run].centre;
+    const dvec3 centre = isMoved ? dvec3(coneFromWorld * dvec4(ball, 1.0)) : ball;
     const std::size_t first = run * kTriangleRun, count = std::min(kTriangleRun, triangles_ - first);
     const bool isMet = test.mayMeet(centre, balls_[run].radius);
     std::fill_n(&mayMeet[first], count, std::uint8_t(isMet));
@@ -197,8 +199,9 @@ void findReflectedRuns(const VertexRuns& runs, const ReflectedCone& cone, const 
                        std::vector<std::uint8_t>& mayReflect) {
   mayReflect.clear();
   const ConeTest test(cone);
+  const bool isMoved = coneFromWorld != dmat4(1.0);
   for (const Ball& ball : runs.balls()) {
-    const dvec3 centre(coneFromWorld * dvec4(ball.centre, 1.0));
+    const dvec3 centre = isMoved ? dvec3(coneFromWorld * dvec4(ball.centre, 1.0)) : ball.centre;
     mayReflect.push_back(ball.radius >= 0 && test.mayMeet(centre, ball.radius));
   }
 }

@@ -72,8 +72,35 @@ TEST(MirrorRects, AroundTheEyeIsEverywhereAndBehindItNowhere) {
   EXPECT_FALSE(findSphereRect(makeClip(), dvec3(-40, 0, -3), 0.5, kWidth, kHeight));
 }
 
+TEST(MirrorRects, AMirrorSeenAslantHasARectangleOfItsOwn) {
+  // A low, wide mirror of five triangles in a fan.
+  scene::WorldGeometry world;
+  for (int i = 0; i < 7; ++i)
+    world.positions.emplace_back(-0.9f + 0.3f * float(i), 0.5f + 0.1f * float(i % 2), 0);
+  world.parts.resize(1);
+  world.parts[0].vertexCount = 7;
+  world.reflectors.resize(1);
+  world.reflectors[0].centre = dvec3(0, 0.55, 0), world.reflectors[0].radius = 0.91;
+  const auto sphere = findSphereRect(makeClip(), dvec3(0, 0.55, 0), 0.91, kWidth, kHeight);
+  const auto rects = findMirrorRects(world, makeClip(), kWidth, kHeight);
+  ASSERT_EQ(rects.size(), 1u);
+  EXPECT_LT(rects[0].width * rects[0].height, sphere->width * sphere->height / 3);
+  for (const vec3& point : world.positions) {
+    const dvec4 at = makeClip() * dvec4(dvec3(point), 1.0);
+    const double x = (at.x / at.w + 1) * 0.5 * kWidth, y = (at.y / at.w + 1) * 0.5 * kHeight;
+    EXPECT_TRUE(x > rects[0].x + 1 && x < rects[0].x + rects[0].width - 1) << x;
+    EXPECT_TRUE(y > rects[0].y + 1 && y < rects[0].y + rects[0].height - 1) << y;
+  }
+  // One corner behind the eye: then the sphere decides.
+  world.positions[0] = vec3(3, 5, 9);
+  const auto again = findMirrorRects(world, makeClip(), kWidth, kHeight);
+  ASSERT_EQ(again.size(), 1u);
+  EXPECT_EQ(again[0].width, sphere->width);
+}
+
 TEST(MirrorRects, ManyBecomeOne) {
   scene::WorldGeometry world;
+  world.parts.resize(1);
   world.reflectors.resize(2);
   world.reflectors[0].centre = dvec3(-0.5, 0.5, 0), world.reflectors[0].radius = 0.2;
   world.reflectors[1].centre = dvec3(0.5, 0.5, 0), world.reflectors[1].radius = 0.2;
