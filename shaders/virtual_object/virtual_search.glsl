@@ -87,10 +87,11 @@ VirtualVertex searchVertex(MapBlend blend, vec3 point) {
   }
   law = lawOnFacet(readFacet(at.triangle), at.uv, u_mirrorEye, point);
   bool isPastBoundary = isSkirt(at.triangle) || isFarOutside(at.uv, 1.0e-4f);
-  if (isFound) return makeVertex(placeBehind(u_mirrorEye, law.position, point), law.position, !isPastBoundary);
-  if (law.distancePoint <= 1.0e-6f * u_mirrorRadius) return makeVertex(point, law.position, !isPastBoundary);
+  int kind = isPastBoundary ? kPastBoundary : kReflected;
+  if (isFound) return makeVertex(placeBehind(u_mirrorEye, law.position, point), law.position, kind);
+  if (law.distancePoint <= 1.0e-6f * u_mirrorRadius) return makeVertex(point, law.position, kind);
   if (!(law.hn > 0.0f && (isPastBoundary || squaredSineOf(law) <= kNearlySine * kNearlySine))) return makeNone(point);
-  VirtualVertex vertex = makeVertex(placeBehind(u_mirrorEye, law.position, point), law.position, false);
+  VirtualVertex vertex = makeVertex(placeBehind(u_mirrorEye, law.position, point), law.position, kDoublyVirtual);
   MirrorPoint hiding = findHidingPoint(point, false);
   if (hiding.triangle >= 0) vertex.kind = kNone;  // the caller draws it as hidden
   return vertex;

@@ -5,7 +5,7 @@
 
 #include "virtual_object/mirror_maps.glsl"
 
-const int kNone = 0, kReflected = 1, kDoublyVirtual = 2;  // raster::VertexKind
+const int kNone = 0, kReflected = 1, kDoublyVirtual = 2, kPastBoundary = 3;  // raster::VertexKind
 
 struct VirtualVertex {
   vec3 position;  // Q'
@@ -13,24 +13,23 @@ struct VirtualVertex {
   int kind;
 };
 
-VirtualVertex makeVertex(vec3 position, vec3 onMirror, bool isReflected) {
+VirtualVertex makeVertex(vec3 position, vec3 onMirror, int kind) {
   VirtualVertex vertex;
   vertex.position = position;
   vertex.onMirror = onMirror;
-  vertex.kind = isReflected ? kReflected : kDoublyVirtual;
+  vertex.kind = kind;
   return vertex;
 }
 
 VirtualVertex makeNone(vec3 point) {
-  VirtualVertex vertex = makeVertex(point, point, false);
-  vertex.kind = kNone;
-  return vertex;
+  return makeVertex(point, point, kNone);
 }
 
 VirtualVertex mirrorHidden(MirrorPoint at, vec3 point) {
   MirrorFacet t = readFacet(at.triangle);
   vec3 entry = positionOn(t, at.uv);
-  return makeVertex(mirrorHiddenPoint(u_mirrorEye, entry, normalize(normalOn(t, at.uv)), point), entry, false);
+  return makeVertex(mirrorHiddenPoint(u_mirrorEye, entry, normalize(normalOn(t, at.uv)), point), entry,
+                    kDoublyVirtual);
 }
 
 /// The two maps that a point lies between, and the blend of what they say: LayeredFinder::find().
@@ -74,13 +73,15 @@ VirtualVertex findReflected(vec3 point) {
 #if defined(EXPLOSION)
   MirrorPoint at = blend.share <= 0.5f ? blend.inner : blend.outer;
   vec3 position = mix(mirrorAt(blend.inner, point), mirrorAt(blend.outer, point), blend.share);
-  return makeVertex(position, positionOn(readFacet(at.triangle), at.uv), !at.isPastBoundary);
+  return makeVertex(position, positionOn(readFacet(at.triangle), at.uv),
+                    at.isPastBoundary ? kDoublyVirtual : kReflected);
 #elif defined(REFINED)
   return searchVertex(blend, point);
 #else
   vec3 onward = point - blend.position;
   if (dot(blend.normal, onward) <= 0.0f && length(onward) > 1.0e-6f * u_mirrorRadius) return makeNone(point);
-  return makeVertex(placeBehind(u_mirrorEye, blend.position, point), blend.position, !heavierOf(blend).isPastBoundary);
+  return makeVertex(placeBehind(u_mirrorEye, blend.position, point), blend.position,
+                    heavierOf(blend).isPastBoundary ? kPastBoundary : kReflected);
 #endif
 }
 

@@ -162,7 +162,7 @@ TEST(Refined, aFlatPatchMirrorsLikeAPlane) {
     EXPECT_NEAR(glm::length(core::reflectPoint(found->virtualPosition, mirror) - point), 0, 1e-9);
     const dvec3 j = found->position;
     const bool isOnPatch = std::max(std::abs(j.x), std::abs(j.z)) <= 1.0;
-    EXPECT_EQ(found->kind, isOnPatch ? VertexKind::Reflected : VertexKind::DoublyVirtual);
+    EXPECT_EQ(found->kind, isOnPatch ? VertexKind::Reflected : VertexKind::PastBoundary);
     reflected += isOnPatch;
   }
   EXPECT_GT(reflected, 100);
