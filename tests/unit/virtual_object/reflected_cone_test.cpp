@@ -190,7 +190,7 @@ TEST(VertexRuns, LeftOutRunsChangeNoOther) {
   const VirtualObjectSolver solver(mesh, dvec3(0.5, 0.2, 4), 20);
   std::mt19937 random(5);
   constexpr std::size_t kRun = VirtualObjectSolver::kRunLength;
-  std::vector<vec3> points(3 * kRun + 17);
+  std::vector<vec3> points(3 * kRun + kRun / 2 + 1);
   for (vec3& p : points) p = vec3(mesh.centre() + 5.0 * randomDirection(random));
   std::vector<vec3> all(points.size()), some(points.size());
   std::vector<VertexKind> allKinds(points.size()), someKinds(points.size());
