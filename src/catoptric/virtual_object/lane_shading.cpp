@@ -19,21 +19,19 @@ void sortPixels(const LaneJob& job, std::size_t begin, std::size_t end, LaneBand
   const std::uint32_t word = job.chain.parentWord();
   const auto sky = std::uint32_t(job.frame.scene.geometry().parts.size());
   const std::span<const uvec4> triangles = job.triangles.triangleTexels();
-  const auto forPixels = [&](const auto& of) {
-    for (std::size_t y = begin; y < end; ++y) {
-      const uvec2* ids = job.ids + y * std::size_t(job.images.levelWidthPx);
-      for (std::size_t x = 0; x < width; ++x) {
-        if (ids[x].y != word) continue;
-        const std::uint32_t number = job.hits.hits[y * width + x].x;
-        of(number == 0 ? sky : triangles[number - 1].w >> 2u, std::uint32_t(x | y << 16u));
-      }
-    }
-  };
   band.counts.resize(sky + 1);  // all zero between frames
   band.partsSeen.clear();
-  forPixels([&](std::uint32_t part, std::uint32_t) {
-    if (band.counts[part]++ == 0) band.partsSeen.push_back(part);
-  });
+  band.found.clear();
+  for (std::size_t y = begin; y < end; ++y) {
+    const uvec2* ids = job.ids + y * std::size_t(job.images.levelWidthPx);
+    for (std::size_t x = 0; x < width; ++x) {
+      if (ids[x].y != word) continue;
+      const std::uint32_t number = job.hits.hits[y * width + x].x;
+      const std::uint32_t part = number == 0 ? sky : triangles[number - 1].w >> 2u;
+      band.found.emplace_back(part, std::uint32_t(x | y << 16u));
+      if (band.counts[part]++ == 0) band.partsSeen.push_back(part);
+    }
+  }
   band.runs.clear();
   std::uint32_t first = 0;
   for (const std::uint32_t part : band.partsSeen) {
@@ -41,7 +39,7 @@ void sortPixels(const LaneJob& job, std::size_t begin, std::size_t end, LaneBand
     first += std::exchange(band.counts[part], first);
   }
   band.pixels.resize(first);
-  forPixels([&](std::uint32_t part, std::uint32_t pixel) { band.pixels[band.counts[part]++] = pixel; });
+  for (const uvec2& of : band.found) band.pixels[band.counts[of.x]++] = of.y;
   for (const std::uint32_t part : band.partsSeen) band.counts[part] = 0;
 }
 

@@ -48,6 +48,7 @@ struct LaneBand {
   std::vector<Run> runs;
   std::vector<std::uint32_t> pixels;             ///< x | y << 16 within the bounds
   std::vector<std::uint32_t> counts, partsSeen;  ///< scratch
+  std::vector<uvec2> found;                      ///< likewise: part and pixel, as they come
 };
 
 /// What all bands of a mirror share.

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "catoptric/core/eight_lanes.h"
@@ -27,6 +28,13 @@ constexpr std::size_t kTrianglesPerTask = 4096;
 constexpr int kBandRows = 16;
 constexpr int kSub = TriangleGroup::kSub;
 constexpr float kFarthest = 1e5f;  // pixels off the picture; beyond, triangles are cut
+
+/// Eight triangles; most are.
+bool areLeftOut(const std::uint8_t* isKept) {
+  std::uint64_t eight;
+  std::memcpy(&eight, isKept, sizeof eight);
+  return eight == 0;
+}
 
 bool isNearScreen(const vec3& s) {
   return std::abs(s.x) < kFarthest && std::abs(s.y) < kFarthest;  // false for a NaN
@@ -271,9 +279,13 @@ std::size_t NumberRaster::draw(const raster::TessellatedObjects& objects, const 
       if (chunk.bands.size() < bands) chunk.bands.resize(bands);
       for (Band& band : chunk.bands) band.clear();
       Binner binner(picture, chunk);
-      for (std::size_t t = i * kTrianglesPerTask; t < std::min(triangles, (i + 1) * kTrianglesPerTask); ++t)
-        if (picture.isKept[t] && picture.isWanted[picture.triangleParts[objects.sourceTriangles[t]]])
+      const std::size_t last = std::min(triangles, (i + 1) * kTrianglesPerTask);
+      for (std::size_t t = i * kTrianglesPerTask; t < last; ++t) {
+        while (t + 8 <= last && areLeftOut(&picture.isKept[t])) t += 8;
+        if (t < last && picture.isKept[t] &&
+            picture.isWanted[picture.triangleParts[objects.sourceTriangles[t]]])
           binner.add(objects, t);
+      }
       binner.flush();
     }
   });
