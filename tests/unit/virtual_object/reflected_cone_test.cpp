@@ -100,7 +100,9 @@ TEST(ReflectedCone, OfARectangleOfAPictureHoldsWhatItShows) {
       EXPECT_TRUE(cone.mayMeet(point, 0));
       ++inside;
     }
-    if (at.w < 0 || far > 2) EXPECT_FALSE(cone.mayMeet(point, 0));
+    if (at.w < 0 || far > 2) {
+      EXPECT_FALSE(cone.mayMeet(point, 0));
+    }
   }
   EXPECT_GT(inside, 100);
 }
@@ -128,8 +130,9 @@ TEST(TriangleRuns, LeaveOutOnlyWhatNoRayMeets) {
   runs.mark(cone, mirrored, mayMeetMirrored);
   EXPECT_NE(mayMeetMirrored, mayMeet);
   for (std::size_t i = 0; i < floor.indices.size(); ++i)
-    if (cone.mayMeet(dvec3(mirrored * dvec4(dvec3(floor.positions[floor.indices[i]]), 1)), 0))
+    if (cone.mayMeet(dvec3(mirrored * dvec4(dvec3(floor.positions[floor.indices[i]]), 1)), 0)) {
       EXPECT_EQ(mayMeetMirrored[i / 3], 1) << i;
+    }
 }
 
 TEST(ReflectedCone, ABallReflectsAllButItsShadow) {
@@ -163,7 +166,8 @@ TEST(ReflectedCone, MeetsBallsAsAnglesSay) {
   std::uniform_real_distribution<double> half(0.0, 3.3), size(0.0, 1.5), far(0.1, 6.0);
   int met = 0, missed = 0;
   for (int i = 0; i < 4000; ++i) {
-    const ReflectedCone cone{randomDirection(random), size(random), randomDirection(random), half(random)};
+    const ReflectedCone cone{
+        randomDirection(random), size(random), randomDirection(random), half(random), {}};
     const double radius = size(random), both = cone.radius + radius;
     const dvec3 offset = far(random) * randomDirection(random);
     const double distance = glm::length(offset);
