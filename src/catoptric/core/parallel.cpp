@@ -4,6 +4,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_group.h>
 
 #include <memory>
 
@@ -34,6 +35,23 @@ void parallelFor(std::size_t count, std::size_t grain,
         tbb::blocked_range<std::size_t>(0, count, grain),
         [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); });
   });
+}
+
+void runBeside(const std::function<void()>& beside, const std::function<void()>& own) {
+  tbb::task_group group;
+  arenaSlot()->execute([&] { group.run(beside); });
+  const auto finish = [&] { arenaSlot()->execute([&] { group.wait(); }); };
+  try {
+    own();  // not within execute(), which may leave it to another thread
+  } catch (...) {
+    group.cancel();
+    try {
+      finish();
+    } catch (...) {  // one of the two is enough
+    }
+    throw;
+  }
+  finish();
 }
 
 }  // namespace catoptric::core

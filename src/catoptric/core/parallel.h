@@ -16,4 +16,9 @@ void setThreadCount(int count);
 void parallelFor(std::size_t count, std::size_t grain,
                  const std::function<void(std::size_t, std::size_t)>& body);
 
+/// Runs `beside` on other threads of the arena while this one runs `own`, which no other thread may run
+/// (calls of GL); then this one helps. Returns when both are done. Whatever one of them throws is rethrown
+/// here.
+void runBeside(const std::function<void()>& beside, const std::function<void()>& own);
+
 }  // namespace catoptric::core

@@ -3,8 +3,6 @@
 // talk to, reads all of them first and takes all of them at the end, and in between no core waits for a
 // mirror to be done before the next one begins. As many at a time as have no more pixels than the picture: in
 // facing mirrors chains are many, and each has its own images.
-#include <future>
-
 #include "catoptric/core/parallel.h"
 #include "catoptric/virtual_object/virtual_object_method.h"
 
@@ -47,10 +45,10 @@ void VirtualObjectMethod::addBegun(raster::FrameContext& frame, const raster::Le
       for (std::size_t i = begin; i < end; ++i) body(*mirrors[i]);
     });
   };
-  auto marks =
-      std::async(std::launch::async, [&] { forAll([&](NumberedMirror& m) { markTriangles(frame, m); }); });
-  for (const auto& m : mirrors) m->inLanes.readParent(parent, m->chain->bounds);
-  marks.get();
+  core::runBeside([&] { forAll([&](NumberedMirror& m) { markTriangles(frame, m); }); },
+                  [&] {
+                    for (const auto& m : mirrors) m->inLanes.readParent(parent, m->chain->bounds);
+                  });
   forAll([&](NumberedMirror& m) {
     drawNumbersHere(frame, m, false);
     m.inLanes.add(frame, *m.chain, shading_.triangles(), {m.numbers.hits, true});

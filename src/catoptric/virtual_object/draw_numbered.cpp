@@ -7,8 +7,8 @@
 //   4. masked and blended parts, as surfaces.
 // Only the last step needs depths. Without it the environment comes before step 3, which then tests none.
 #include <algorithm>
-#include <future>
 
+#include "catoptric/core/parallel.h"
 #include "catoptric/virtual_object/virtual_object_method.h"
 
 namespace catoptric::virtual_object {
@@ -77,10 +77,10 @@ bool VirtualObjectMethod::drawNumbered(raster::FrameContext& frame, NumberedMirr
   const raster::SurfaceView& view = m.view;
   shading_.prepare(frame.scene, *view.parent);
   // Reading keeps one core busy.
-  auto marks =
-      std::async(numbersByGl_ ? std::launch::deferred : std::launch::async, [&] { markTriangles(frame, m); });
-  if (!numbersByGl_) m.inLanes.readParent(*view.parent, chain.bounds);
-  marks.get();
+  core::runBeside([&] { markTriangles(frame, m); },
+                  [&] {
+                    if (!numbersByGl_) m.inLanes.readParent(*view.parent, chain.bounds);
+                  });
   const bool isWithSurfaces = m.prepared && hasSurfaces(*m.prepared);
   const bool withDepths = isWithSurfaces || frame.merge != raster::Merge::Ids;
   if (numbersByGl_)

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace catoptric::core {
@@ -41,6 +42,30 @@ TEST(ParallelFor, MayBeNested) {
       parallelFor(100, 10, [&](std::size_t b, std::size_t e) { sum += int(e - b); });
   });
   EXPECT_EQ(sum, 800);
+}
+
+TEST(RunBeside, RunsBothAndItsOwnOnThisThread) {
+  for (const int threads : {0, 1}) {
+    setThreadCount(threads);
+    std::atomic<int> beside{0};
+    std::thread::id own;
+    runBeside([&] { parallelFor(100, 1, [&](std::size_t a, std::size_t b) { beside += int(b - a); }); },
+              [&] { own = std::this_thread::get_id(); });
+    EXPECT_EQ(beside, 100);
+    EXPECT_EQ(own, std::this_thread::get_id());
+  }
+  setThreadCount(0);
+}
+
+TEST(RunBeside, RethrowsFromEither) {
+  const auto nothing = [] {};
+  const auto fail = [] { throw std::runtime_error("no"); };
+  EXPECT_THROW(runBeside(fail, nothing), std::runtime_error);
+  EXPECT_THROW(runBeside(nothing, fail), std::runtime_error);
+  EXPECT_THROW(runBeside(fail, fail), std::runtime_error);
+  int done = 0;
+  runBeside(nothing, [&] { ++done; });
+  EXPECT_EQ(done, 1);
 }
 
 TEST(ThreadCount, CanBeSetAndReset) {
