@@ -68,12 +68,12 @@ std::array<dvec3, 4> findSides(const ReflectorMesh& mesh, const ReflectedRays& r
   std::array<dvec3, 4> sides;
   const std::array<dvec3, 2> extents = findExtents(mesh, rays, axis);
   for (std::size_t i = 0; i < 2; ++i) {
-    double least = 0, most = 0;  // radians from the axis
+    double leastTangent = 0, mostTangent = 0;  // of angles from the axis
     forEachRay(mesh, rays, [&](const dvec3& direction) {
-      const double angle = std::atan2(glm::dot(direction, extents[i]), glm::dot(direction, axis));
-      least = std::min(least, angle), most = std::max(most, angle);
+      const double tangent = glm::dot(direction, extents[i]) / glm::dot(direction, axis);
+      leastTangent = std::min(leastTangent, tangent), mostTangent = std::max(mostTangent, tangent);
     });
-    least -= margin, most += margin;
+    const double least = std::atan(leastTangent) - margin, most = std::atan(mostTangent) + margin;
     sides[2 * i] = std::cos(least) * extents[i] - std::sin(least) * axis;
     sides[2 * i + 1] = std::sin(most) * axis - std::cos(most) * extents[i];
   }
