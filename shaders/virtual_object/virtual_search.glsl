@@ -5,6 +5,7 @@
 
 const int kMostSteps = 8, kMostCrossings = 24;
 const float kAlmostSine = 2.0e-3f;
+const float kStraight = 1.0e-4f;  // as MirrorLaw::kStraight
 const float kNearlySine = 0.05f;  // a root this near is good enough to place a doubly virtual vertex
 const float kLongestStep = 0.7f;  // of the mirror's radius
 
@@ -57,6 +58,7 @@ VirtualVertex searchVertex(MapBlend blend, vec3 point) {
   MirrorPoint at = heavierOf(blend);
   at.uv = clampUv(at.uv);
   at = walkOnMirror(at, projectOnto(at.triangle, blend.position) - at.uv);
+  at.uv = clampUv(at.uv);  // past the mesh's end searches go astray
   MirrorPoint lastGood = at;
   vec2 lastStep = vec2(0.0f);
   float lastMerit = 1.0e30f, damping = 1.0f;
@@ -66,7 +68,10 @@ VirtualVertex searchVertex(MapBlend blend, vec3 point) {
     MirrorFacet t = readFacet(at.triangle);
     law = lawOnFacet(t, at.uv, u_mirrorEye, point);
     if (!(law.distancePoint > 1.0e-6f * law.distanceEye)) break;
-    isFound = law.hn > 0.0f && squaredSineOf(law) < kAlmostSine * kAlmostSine;
+    bool isRoot = squaredSineOf(law) < kAlmostSine * kAlmostSine;
+    bool isStraight = dot(law.h, law.h) < kStraight * kStraight;
+    if (isStraight || (isRoot && law.hn <= 0.0f)) break;  // no reflection, and the search would stay here
+    isFound = isRoot;
     float merit = squaredMeritOf(law);
     vec2 change;
     if (isFound || merit < lastMerit || damping < 0.02f) {
@@ -90,9 +95,11 @@ VirtualVertex searchVertex(MapBlend blend, vec3 point) {
   int kind = isPastBoundary ? kPastBoundary : kReflected;
   if (isFound) return makeVertex(placeBehind(u_mirrorEye, law.position, point), law.position, kind);
   if (law.distancePoint <= 1.0e-6f * u_mirrorRadius) return makeVertex(point, law.position, kind);
-  if (!(law.hn > 0.0f && (isPastBoundary || squaredSineOf(law) <= kNearlySine * kNearlySine))) return makeNone(point);
-  VirtualVertex vertex = makeVertex(placeBehind(u_mirrorEye, law.position, point), law.position, kDoublyVirtual);
   MirrorPoint hiding = findHidingPoint(point, false);
-  if (hiding.triangle >= 0) vertex.kind = kNone;  // the caller draws it as hidden
-  return vertex;
+  bool isStraight = dot(law.h, law.h) < kStraight * kStraight;
+  if (hiding.triangle < 0 && isStraight && !isPastBoundary && dot(law.normal, law.toEye) > 0.0f) hiding = at;
+  if (hiding.triangle >= 0) return mirrorHidden(hiding, point);
+  bool isNear = isPastBoundary ? law.hn > 0.0f || isStraight : law.hn > 0.0f && squaredSineOf(law) <= kNearlySine * kNearlySine;
+  if (!isNear) return makeNone(point);
+  return makeVertex(placeBehind(u_mirrorEye, law.position, point), law.position, kDoublyVirtual);
 }

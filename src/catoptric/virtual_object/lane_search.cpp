@@ -10,6 +10,7 @@
 #include "catoptric/virtual_object/lane_map.h"
 #include "catoptric/virtual_object/mesh_walk.h"
 #include "catoptric/virtual_object/mirror_law_lanes.h"
+#include "catoptric/virtual_object/reflection_point.h"
 
 namespace catoptric::virtual_object {
 namespace {
@@ -20,41 +21,36 @@ using core::toBits;
 constexpr float kAlmostSine = 2e-3f;  // one more step leaves about the square of it
 constexpr float kStaleSine = 0.1f;    // the maps know better than the last frame
 constexpr float kGrazing = 0.02f;     // of h.n = 2 cos(angle of incidence): below it floats lose too much
-constexpr float kWalkable = 1.0f;     // triangles away; beyond, the hidden map knows the way
-constexpr int kMaxSteps = 8;          // more means that the start was bad
+constexpr auto kStraight = float(MirrorLaw::kStraight);
+constexpr float kShorter = 0.35f;     // a step that made it worse
+constexpr int kMostShortened = 4;     // in a row; then onwards all the same
+constexpr int kMaxSteps = 12;         // more means that the start was bad
 constexpr float kFarOutside = 0.5f;   // there the extrapolated mirror is no guide
-constexpr int kMostStepsOutside = 1;  // there, unless they lead on
+constexpr int kMostStepsOutside = 3;  // there
 constexpr float kOutside = 1e-5f;     // barycentric slack
-constexpr int kMostCrossings = 120;   // half round a finely cut mirror
+constexpr int kMostCrossings = 16;    // of edges in one step; the next one goes on
 
-struct Search {
+/// A place on the mirror in each lane.
+struct Places {
   EightInts triangle;
   Eight u, v;
-  Triangles t;
 };
 
-/// To where the eye sees a target on the mirror, without walking there: the hidden map names the triangle.
-/// Returns the lanes in which it does; the others stay.
-CATOPTRIC_INLINE EightInts jumpTo(const LaneView& view, const EightInts& which, const LaneVector& target,
-                                  Search& s) {
-  const MapPlace place = findPlace(view.hiddenMap, target);
-  EightInts shown;
-  for (int i = 0; i < kLanes; ++i) shown[i] = std::int32_t(view.hiddenIds[std::uint32_t(place.index[i])]);
-  const EightInts isShown = which & place.isInside & (shown != std::int32_t(core::kNoId));
-  s.triangle = isShown ? shown : s.triangle;
-  gather(view.triangles, s.triangle, s.t);
-  const LaneVector d = target - s.t.position0;
-  const Eight a = dot(s.t.edge1, d), b = dot(s.t.edge2, d);
-  const Eight u = larger(s.t.gram11 * a + s.t.gram12 * b, Eight{}),
-              v = larger(s.t.gram12 * a + s.t.gram22 * b, Eight{});
-  const Eight inside = 1.0f / larger(u + v, Eight{} + 1.0f);
-  s.u = isShown ? u * inside : s.u;
-  s.v = isShown ? v * inside : s.v;
-  return isShown;
+CATOPTRIC_INLINE Places choose(const EightInts& which, const Places& yes, const Places& no) {
+  return {which ? yes.triangle : no.triangle, which ? yes.u : no.u, which ? yes.v : no.v};
 }
 
-/// Step 1.
-CATOPTRIC_INLINE void start(const LaneView& view, const LaneVector& local, Search& s) {
+/// As LaneState, and what became of the lanes.
+struct Search {
+  Places at, last;
+  Triangles t;  ///< of `at`
+  Eight stepU, stepV, merit;
+  EightInts steps, stepsOutside, shortened;
+  EightInts active, found{}, lost{}, hard{};
+};
+
+/// Step 1: where the eye sees what the maps say, in the triangle that the hidden map shows there.
+CATOPTRIC_INLINE Places seed(const LaneView& view, const LaneVector& local) {
   const LaneVector d = local - broadcast(view.seedMap.centre);
   const Eight layer =
       (1.0f / squareRoot(larger(dot(d, d), Eight{} + 1e-30f)) - view.inverseNear) * view.layersPerInverse;
@@ -67,31 +63,37 @@ CATOPTRIC_INLINE void start(const LaneView& view, const LaneVector& local, Searc
   EightInts nearTriangle, farTriangle;
   std::memcpy(&nearTriangle, &seeds[3], sizeof nearTriangle);
   std::memcpy(&farTriangle, &seeds[7], sizeof farTriangle);
-  s.triangle = nearWeight >= 0.5f ? nearTriangle : farTriangle;
   const LaneVector near{{seeds[0], seeds[1], seeds[2]}}, far{{seeds[4], seeds[5], seeds[6]}};
-  s.u = s.v = Eight{} + 1.0f / 3;
-  static_cast<void>(
-      jumpTo(view, ~EightInts{}, toLocal(view, nearWeight * near + (1.0f - nearWeight) * far), s));
+  const LaneVector target = toLocal(view, nearWeight * near + (1.0f - nearWeight) * far);
+  const MapPlace shown = findPlace(view.hiddenMap, target);
+  EightInts triangle;
+  for (int i = 0; i < kLanes; ++i) triangle[i] = std::int32_t(view.hiddenIds[std::uint32_t(shown.index[i])]);
+  const EightInts isShown = shown.isInside & (triangle != std::int32_t(core::kNoId));
+  Places at;
+  at.triangle = isShown ? triangle : nearWeight >= 0.5f ? nearTriangle : farTriangle;
+  Triangles t;
+  gather(view.triangles, at.triangle, t);
+  const LaneVector inTriangle = target - t.position0;
+  const Eight a = dot(t.edge1, inTriangle), b = dot(t.edge2, inTriangle);
+  const Eight u = larger(t.gram11 * a + t.gram12 * b, Eight{}),
+              v = larger(t.gram12 * a + t.gram22 * b, Eight{});
+  const Eight inside = 1.0f / larger(u + v, Eight{} + 1.0f);
+  at.u = isShown ? u * inside : Eight{} + 1.0f / 3;
+  at.v = isShown ? v * inside : Eight{} + 1.0f / 3;
+  return at;
 }
 
-/// Some lanes to where the maps say; false if there are none.
-CATOPTRIC_INLINE bool restart(const LaneView& view, const EightInts& which, const LaneVector& local,
+/// Some lanes to where the maps say.
+CATOPTRIC_INLINE void restart(const LaneView& view, const EightInts& which, const LaneVector& local,
                               Search& s) {
-  if (toBits(which) == 0) return false;
-  Search fresh;
-  start(view, local, fresh);
-  s.triangle = which ? fresh.triangle : s.triangle;
-  s.u = which ? fresh.u : s.u;
-  s.v = which ? fresh.v : s.v;
-  gather(view.triangles, s.triangle, s.t);
-  return true;
+  s.at = choose(which, seed(view, local), s.at);
+  gather(view.triangles, s.at.triangle, s.t);
 }
 
 /// Steps that leave their triangle, lane by lane.
 struct Walk {
   LaneFloats u, v, stepU, stepV;
   std::uint32_t triangle[kLanes];
-  unsigned stuck = 0;  ///< lanes that got nowhere
 };
 
 void walkAlone(std::span<const LaneTriangle> triangles, unsigned lanes, Walk& walk) {
@@ -102,100 +104,141 @@ void walkAlone(std::span<const LaneTriangle> triangles, unsigned lanes, Walk& wa
   for (; lanes != 0; lanes &= lanes - 1) {
     const int i = std::countr_zero(lanes);
     Place at{walk.triangle[i], walk.u[i], walk.v[i]};
-    if (!walkOverMesh(triangles, at, walk.stepU[i], walk.stepV[i], kMostCrossings) &&
-        std::max({-at.u, -at.v, at.u + at.v - 1.0f}) <= 0)
-      walk.stuck |= 1u << i;
+    static_cast<void>(walkOverMesh(triangles, at, walk.stepU[i], walk.stepV[i], kMostCrossings));
     walk.triangle[i] = at.triangle, walk.u[i] = at.u, walk.v[i] = at.v;
   }
 }
 
-/// Step 3 for lanes whose step leaves the triangle; returns those that got nowhere.
-CATOPTRIC_INLINE EightInts walkOn(const LaneView& view, const EightInts& leaving, const EightInts& last,
-                                  const Law& law, Search& s) {
-  const Eight u = s.u + law.stepU, v = s.v + law.stepV;
-  const EightInts isFar = leaving & ~last & (outsideBy(u, v) >= kWalkable);
-  EightInts walking = leaving;
-  if (toBits(isFar) != 0) walking &= ~jumpTo(view, isFar, s.t.position0 + u * s.t.edge1 + v * s.t.edge2, s);
+/// Step 3.
+CATOPTRIC_INLINE void walkOn(const LaneView& view, const EightInts& which, Search& s) {
+  const LaneVector move = s.stepU * s.t.edge1 + s.stepV * s.t.edge2;
+  const Eight length = squareRoot(dot(move, move));
+  const Eight share = length > view.longestStep ? view.longestStep / length : Eight{} + 1.0f;
+  s.stepU = share * s.stepU, s.stepV = share * s.stepV;
   Walk walk;
-  store(walk.u, s.u), store(walk.v, s.v);
-  store(walk.stepU, law.stepU), store(walk.stepV, law.stepV);
-  std::memcpy(walk.triangle, &s.triangle, sizeof walk.triangle);
-  walkAlone(view.triangles, toBits(walking), walk);
-  s.u = load(walk.u), s.v = load(walk.v);
-  std::memcpy(&s.triangle, walk.triangle, sizeof walk.triangle);
-  gather(view.triangles, s.triangle, s.t);
-  return fromBits(walk.stuck);
+  store(walk.u, s.at.u), store(walk.v, s.at.v);
+  store(walk.stepU, s.stepU), store(walk.stepV, s.stepV);
+  std::memcpy(walk.triangle, &s.at.triangle, sizeof walk.triangle);
+  walkAlone(view.triangles, toBits(which), walk);
+  s.at.u = load(walk.u), s.at.v = load(walk.v);
+  std::memcpy(&s.at.triangle, walk.triangle, sizeof walk.triangle);
+  gather(view.triangles, s.at.triangle, s.t);
 }
 
-/// Step 1: at the places of the last frame, those without one at the maps' place.
-CATOPTRIC_INLINE Search begin(const LaneView& view, const LaneGroup& group, const LaneVector& local) {
+template <class Value>
+CATOPTRIC_INLINE Value loadAs(const void* from) {
+  Value value;
+  std::memcpy(&value, from, sizeof value);
+  return value;
+}
+
+template <class Value>
+CATOPTRIC_INLINE void storeAs(void* to, const Value& value) {
+  std::memcpy(to, &value, sizeof value);
+}
+
+CATOPTRIC_INLINE Search resume(const LaneGroup& group) {
   Search s;
-  std::memcpy(&s.triangle, group.triangle, sizeof s.triangle);
-  s.u = load(group.u), s.v = load(group.v);
-  const EightInts isKnown = (s.triangle >= 0) & (s.triangle < std::int32_t(view.triangles.size()));
-  s.triangle = isKnown ? s.triangle : EightInts{};
-  if ((group.wanted & ~toBits(isKnown)) != 0)
-    restart(view, ~isKnown, local, s);
-  else
-    gather(view.triangles, s.triangle, s.t);
+  s.active = fromBits(group.wanted);
+  s.at = {loadAs<EightInts>(group.triangle), load(group.u), load(group.v)};
+  s.stepU = s.stepV = s.merit = Eight{};
+  s.last = s.at;
+  s.steps = s.stepsOutside = s.shortened = EightInts{};
+  if (!group.hasBegun) return s;
+  const LaneState& from = group.state;
+  s.last = {loadAs<EightInts>(from.triangle), load(from.u), load(from.v)};
+  s.stepU = load(from.stepU), s.stepV = load(from.stepV), s.merit = load(from.merit);
+  s.steps = loadAs<EightInts>(from.steps), s.stepsOutside = loadAs<EightInts>(from.stepsOutside);
+  s.shortened = loadAs<EightInts>(from.shortened);
   return s;
 }
 
 struct SearchLanes {
-  CATOPTRIC_INLINE static void run(const LaneView& view, LaneGroup& group) {
+  CATOPTRIC_INLINE static void run(const LaneView& view, LaneGroup& group, int fewest) {
     const LaneVector local = toLocal(view, loadVector(group.point)), eye = broadcast(view.eye);
-    Search s = begin(view, group, local);
-    EightInts active = fromBits(group.wanted), found{}, lost{}, hard{}, stepsOutside{};
-    Eight lastSine = Eight{} + 4.0f;
-    for (int step = 0; step < kMaxSteps && toBits(active) != 0; ++step) {
-      Law law = evaluate(s.t, s.u, s.v, eye, local);  // 2
-      if (step == 0 && restart(view, active & ~(law.squaredSine < kStaleSine * kStaleSine), local, s))
-        law = evaluate(s.t, s.u, s.v, eye, local);
+    Search s = resume(group);
+    // Step 1: at the places of the last frame, those without one and stale ones at the maps' place.
+    const EightInts isKnown = (s.at.triangle >= 0) & (s.at.triangle < std::int32_t(view.triangles.size()));
+    s.at.triangle = isKnown ? s.at.triangle : EightInts{};
+    gather(view.triangles, s.at.triangle, s.t);
+    EightInts isSeeded = s.active & ~isKnown, mayBeStale = s.active & isKnown & (s.steps == 0);
+    for (;;) {
+      if (toBits(isSeeded) != 0) restart(view, isSeeded, local, s);
+      const Law law = evaluate(s.t, s.at.u, s.at.v, eye, local);
+      isSeeded = mayBeStale & ~(law.squaredSine < kStaleSine * kStaleSine);
+      mayBeStale = EightInts{};
+      if (toBits(isSeeded) != 0) continue;
+      s.steps -= s.active;
       const EightInts isLast = law.squaredSine < kAlmostSine * kAlmostSine;
-      const EightInts isFar = outsideBy(s.u, s.v) > kFarOutside;
-      stepsOutside -= isFar;
-      const EightInts isEasy =
-          (law.squaredSine < lastSine) & (law.facing > kGrazing) & (law.distance > view.touching);
-      const EightInts findsNoRoot = ~isEasy | (step == kMaxSteps - 1 ? ~isLast : EightInts{});
-      const EightInts isLost =
-          active & findsNoRoot & isFar & (law.facing > 0.0f) & (stepsOutside > kMostStepsOutside);
-      lost |= isLost;
-      active &= ~isLost;
-      hard |= active & ~isEasy;
-      active &= isEasy;
-      const Eight u = s.u + law.stepU, v = s.v + law.stepV, outside = outsideBy(u, v);
-      const EightInts stays = active & (outside <= 0.0f), leaves = active & ~stays;
-      s.u = stays ? u : s.u;
-      s.v = stays ? v : s.v;
-      if (toBits(leaves) != 0) {  // 3
-        const EightInts stuck = walkOn(view, leaves, isLast, law, s);
-        hard |= stuck;
-        active &= ~stuck;
-      }
-      found |= active & isLast;
-      active &= ~isLast;
-      lastSine = law.squaredSine;
+      giveUp(view, law, isLast, s);
+      step(view, law, isLast, s);
+      s.found |= s.active & isLast;
+      s.active &= ~isLast;
+      if (std::popcount(toBits(s.active)) <= fewest) break;
     }
-    hard |= active;
-    finish(view, s, local, eye, found, group);
-    group.lost = toBits(lost), group.hard = toBits(hard);
+    finish(view, s, local, eye, group);
+  }
+
+  /// Steps 4 and 5.
+  CATOPTRIC_INLINE static void giveUp(const LaneView& view, const Law& law, const EightInts& isLast,
+                                      Search& s) {
+    const EightInts isFar = outsideBy(s.at.u, s.at.v) > kFarOutside;
+    s.stepsOutside -= s.active & isFar;
+    const EightInts isStraight = law.squaredHalf < kStraight * kStraight;
+    const EightInts isBehind = isLast & (law.facing < 0.0f);
+    const EightInts isAstray = ~isLast & isFar & (s.stepsOutside > kMostStepsOutside);
+    const EightInts isLost = s.active & (isStraight | isBehind | isAstray);
+    s.lost |= isLost;
+    const EightInts isHard =
+        (isLast ? law.facing <= kGrazing : s.steps >= kMaxSteps) | ~(law.distance > view.touching);
+    s.hard |= s.active & ~isLost & isHard;
+    s.active &= ~(isLost | isHard);
+  }
+
+  /// Newton's, or less of the last one if that made it worse.
+  CATOPTRIC_INLINE static void step(const LaneView& view, const Law& law, const EightInts& isLast,
+                                    Search& s) {
+    const EightInts goesBack =
+        s.active & ~isLast & (s.steps > 1) & ~(law.squaredMerit < s.merit) & (s.shortened < kMostShortened);
+    if (toBits(goesBack) != 0) {
+      s.at = choose(goesBack, s.last, s.at);
+      gather(view.triangles, s.at.triangle, s.t);
+    }
+    s.stepU = goesBack ? kShorter * s.stepU : law.stepU;
+    s.stepV = goesBack ? kShorter * s.stepV : law.stepV;
+    s.merit = goesBack ? s.merit : law.squaredMerit;
+    s.shortened = goesBack ? s.shortened + 1 : EightInts{};
+    s.last = s.at;
+    const Eight u = s.at.u + s.stepU, v = s.at.v + s.stepV;
+    const EightInts isPastEnd = outsideBy(s.at.u, s.at.v) > kOutside;
+    const EightInts stays = s.active & ((outsideBy(u, v) <= 0.0f) | (isLast & isPastEnd));
+    s.at.u = stays ? u : s.at.u;
+    s.at.v = stays ? v : s.at.v;
+    const EightInts leaves = s.active & ~stays;
+    if (toBits(leaves) != 0) walkOn(view, leaves, s);
   }
 
   CATOPTRIC_INLINE static void finish(const LaneView& view, const Search& s, const LaneVector& local,
-                                      const LaneVector& eye, const EightInts& found, LaneGroup& group) {
-    const LaneVector position = s.t.position0 + s.u * s.t.edge1 + s.v * s.t.edge2;
+                                      const LaneVector& eye, LaneGroup& group) {
+    const LaneVector position = s.t.position0 + s.at.u * s.t.edge1 + s.at.v * s.t.edge2;
     const LaneVector toPosition = position - eye, onward = local - position;
     const Eight lengthening = squareRoot(dot(onward, onward) / dot(toPosition, toPosition));
     const LaneVector rest = broadcast(view.centreRest), centre = broadcast(view.centre);
     storeVector(group.position, (position + rest) + centre);
     storeVector(group.virtualPosition, ((position + lengthening * toPosition) + rest) + centre);
-    group.found = toBits(found);
-    std::memcpy(group.triangle, &s.triangle, sizeof group.triangle);
-    store(group.u, s.u), store(group.v, s.v);
-    group.isOutside = group.found & toBits(outsideBy(s.u, s.v) > kOutside);
+    storeAs(group.triangle, s.at.triangle), store(group.u, s.at.u), store(group.v, s.at.v);
+    group.found = toBits(s.found), group.lost = toBits(s.lost), group.hard = toBits(s.hard);
+    group.goesOn = toBits(s.active);
+    group.isOutside = group.found & toBits(outsideBy(s.at.u, s.at.v) > kOutside);
     for (int i = 0; i < kLanes; ++i)
-      if (view.triangles[std::uint32_t(s.triangle[i])].flags & MirrorTriangle::kSkirt)
+      if (view.triangles[std::uint32_t(s.at.triangle[i])].flags & MirrorTriangle::kSkirt)
         group.isOutside |= (1u << i) & group.found;
+    if (group.goesOn == 0) return;
+    LaneState& state = group.state;
+    storeAs(state.triangle, s.last.triangle), store(state.u, s.last.u), store(state.v, s.last.v);
+    store(state.stepU, s.stepU), store(state.stepV, s.stepV), store(state.merit, s.merit);
+    storeAs(state.steps, s.steps), storeAs(state.stepsOutside, s.stepsOutside);
+    storeAs(state.shortened, s.shortened);
   }
 };
 
@@ -224,8 +267,19 @@ std::vector<LaneTriangle> makeLaneTriangles(const ReflectorMesh& mesh) {
   return lanes;
 }
 
-void searchLanes(const LaneView& view, LaneGroup& group) {
-  core::runOnWidestVectors<SearchLanes>(view, group);
+void searchLanes(const LaneView& view, LaneGroup& group, int fewest) {
+  core::runOnWidestVectors<SearchLanes>(view, group, fewest);
+}
+
+void moveLane(const LaneGroup& from, std::size_t i, LaneGroup& to, std::size_t j) {
+  for (int k = 0; k < 3; ++k) to.point[k][j] = from.point[k][i];
+  to.vertex[j] = from.vertex[i];
+  to.triangle[j] = from.triangle[i], to.u[j] = from.u[i], to.v[j] = from.v[i];
+  const LaneState& a = from.state;
+  LaneState& b = to.state;
+  b.triangle[j] = a.triangle[i], b.u[j] = a.u[i], b.v[j] = a.v[i];
+  b.stepU[j] = a.stepU[i], b.stepV[j] = a.stepV[i], b.merit[j] = a.merit[i];
+  b.steps[j] = a.steps[i], b.stepsOutside[j] = a.stepsOutside[i], b.shortened[j] = a.shortened[i];
 }
 
 LaneLaw evaluateLanes(const LaneView& view, const LaneGroup& group) {

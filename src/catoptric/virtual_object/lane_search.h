@@ -6,11 +6,14 @@
 //      in the triangle that the hidden map shows there.
 //   2. All lanes are evaluated at once (mirror_law_lanes.h). A lane whose residual is small takes one last
 //      step and is found: Newton's error goes with the square, so the step makes it vanish. Another takes its
-//      step and goes on.
+//      step and goes on; a step that made it worse is taken back and a shorter one taken.
 //   3. Steps that leave their triangle walk over the mesh, lane by lane (mesh_walk.h); past the end of an
-//      open mirror the last triangle is extrapolated, and a search that goes far out without a root is lost.
-//   4. What is not easy - nearly touching the mirror, grazing, no quick convergence - is handed back for the
+//      open mirror the last triangle is extrapolated.
+//   4. Three ends say that nothing is reflected: a root on the mirror's back; the place where the ray to the
+//      point goes straight into the mirror, where h vanishes; too many steps far outside.
+//   5. What is not easy - nearly touching the mirror, grazing, no quick convergence - is handed back for the
 //      double search. So what is found, and for which vertices, is what that one finds.
+// The few lanes that take longer than the others of their group can be moved to another one and go on there.
 //
 // Frame inside: world axes, origin at the mirror's centre. Loss against the double search: less than 0.05 px
 // where the mirror is 700 px wide (lanes_test.cpp).
@@ -59,7 +62,8 @@ struct LaneView {
   std::span<const SeedPixel> seeds;
   float hiddenNearest = 0, hiddenSquaredCosine = 2;
   float inverseNear = 0, layersPerInverse = 0;
-  float touching = 0;  ///< nearer points need doubles
+  float touching = 0;     ///< nearer points need doubles
+  float longestStep = 0;  ///< on the mirror
 };
 
 /// Where each of many vertices was last seen in a mirror. A place that is not on the mirror at all is as good
@@ -76,19 +80,30 @@ struct LanePlaces {
   }
 };
 
+/// How far a search has come: the last step, from where, and how good it was there.
+struct LaneState {
+  std::int32_t triangle[kLanes];
+  LaneFloats u, v, stepU, stepV, merit;
+  std::int32_t steps[kLanes], stepsOutside[kLanes], shortened[kLanes];
+};
+
 /// Eight vertices. Which ones: bit i for lane i.
 struct alignas(64) LaneGroup {
   unsigned wanted = 0;            ///< in: to be searched
+  std::size_t vertex[kLanes];     ///< the caller's
   LaneFloats point[3];            ///< in: Q, world
-  std::int32_t triangle[kLanes];  ///< in: as LanePlaces; out: of those found
+  std::int32_t triangle[kLanes];  ///< in: as LanePlaces; out: where the search stands
   LaneFloats u, v;
+  bool hasBegun = false;  ///< in: searchLanes() left it before it was ready
+  LaneState state;        ///< if so
 
   unsigned hidden = 0;  ///< out of hideLanes(): mirrored where the mirror hides them
 
-  // Out of searchLanes(): each wanted lane is in one of the first three.
+  // Out of searchLanes(): each wanted lane is in one of the first four.
   unsigned found = 0;
-  unsigned lost = 0;       ///< far past the mirror's edge, where no root was found; the last place is there
+  unsigned lost = 0;       ///< has no root: straight through the mirror, on its back, or far past its edge
   unsigned hard = 0;       ///< for the double search
+  unsigned goesOn = 0;     ///< not ready yet
   unsigned isOutside = 0;  ///< of those found, past the mirror's edge
   LaneFloats virtualPosition[3], position[3];  ///< Q', J, world
 };
@@ -99,8 +114,12 @@ void findSurelyHiding(const core::Image<std::uint32_t>& ids, std::vector<std::in
 /// Finds the wanted lanes that the mirror surely hides, and their places, as `hidden`.
 void hideLanes(const LaneView& view, LaneGroup& group);
 
-/// Overwrites places of lanes that are not wanted.
-void searchLanes(const LaneView& view, LaneGroup& group);
+/// Until at most `fewest` lanes go on. What becomes of a lane depends on no other one. Overwrites places of
+/// lanes that are not wanted.
+void searchLanes(const LaneView& view, LaneGroup& group, int fewest);
+
+/// A search to another group, `wanted` left out.
+void moveLane(const LaneGroup& from, std::size_t i, LaneGroup& to, std::size_t j);
 
 /// The law at one place each, for tests.
 struct LaneLaw {

@@ -86,7 +86,7 @@ CATOPTRIC_INLINE void gather(std::span<const LaneTriangle> from, const EightInts
 
 /// As LaneLaw.
 struct Law {
-  Eight squaredSine, facing, distance, stepU, stepV;
+  Eight squaredSine, squaredMerit, squaredHalf, facing, distance, stepU, stepV;
 };
 
 /// MirrorLaw and computeNewtonStep of reflection_point.h, in the same order.
@@ -105,7 +105,10 @@ CATOPTRIC_INLINE Law evaluate(const Triangles& t, const Eight& u, const Eight& v
   const Eight nn = dot(n, n), hn = dot(h, n);
   const LaneVector q = nn * h - hn * n;
   Law law;
-  law.squaredSine = dot(q, q) / (dot(h, h) * nn * nn);
+  const Eight qq = dot(q, q), harmonic = a * b * inverseSum;
+  law.squaredHalf = dot(h, h);
+  law.squaredSine = qq / (law.squaredHalf * nn * nn);
+  law.squaredMerit = harmonic * harmonic * law.squaredSine * law.squaredHalf;
   law.facing = hn;
   law.distance = b;
   // Derivatives along both edges.

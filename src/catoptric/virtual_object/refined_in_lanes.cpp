@@ -3,8 +3,9 @@
 // depends on.
 //
 //   1. Surely hidden by the mirror? Then no search.
-//   2. The others are searched together (lane_search.h).
-//   3. What is not easy goes to the double search, from where it was found last or from its own seed.
+//   2. The others are searched together (lane_search.h), until only a few of eight go on.
+//   3. These wait for others of their kind, and go on together.
+//   What is not easy goes to the double search, from where it was found last or from its own seed.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -17,6 +18,8 @@ namespace catoptric::virtual_object {
 namespace {
 
 constexpr double kTouching = 4e-3;  // of the mesh's radius: nearer points need doubles
+
+constexpr int kStragglers = 3;  // of eight lanes: so few are not worth a step of all
 
 template <class Function>
 void forEachLane(unsigned lanes, const Function& function) {
@@ -52,53 +55,60 @@ void VirtualObjectSolver::prepareLanes() {
   view.hiddenSquaredCosine = float(hiddenMap_.squaredCosine);
   view.inverseNear = float(inverseNear_), view.layersPerInverse = float(layersPerInverse_);
   view.touching = float(kTouching * mesh_->radius());
+  view.longestStep = float(options_.longestStep * mesh_->radius());
 }
 
-void VirtualObjectSolver::solveGroup(const VertexSink& sink, std::size_t first, std::size_t count) const {
-  LaneGroup group;
-  LanePlaces* places = sink.places;
+/// Up to eight vertices as a group.
+void VirtualObjectSolver::gatherGroup(const VertexSink& sink, std::size_t first, std::size_t count,
+                                      LaneGroup& group) {
+  float sum = 0;
   for (std::size_t lane = 0; lane < std::size_t(kLanes); ++lane) {
-    const vec3& point = sink.scenePoints[first + std::min(lane, count - 1)];
+    const std::size_t i = first + std::min(lane, count - 1);
+    group.vertex[lane] = i;
+    const vec3& point = sink.scenePoints[i];
     for (int k = 0; k < 3; ++k) group.point[k][lane] = point[k];
-    const bool isKnown = places != nullptr && lane < count;
-    group.triangle[lane] = isKnown ? places->triangles[first + lane] : -1;
-    group.u[lane] = isKnown ? places->u[first + lane] : 0.0f;
-    group.v[lane] = isKnown ? places->v[first + lane] : 0.0f;
-    if (lane >= count) continue;
-    if (std::isfinite(point.x + point.y + point.z))
-      group.wanted |= 1u << lane;
-    else
-      sink.write(first + lane, VirtualVertex{});
+    sum += point.x + point.y + point.z;
   }
+  for (std::size_t lane = 0; lane < std::size_t(kLanes); ++lane) group.triangle[lane] = -1;
+  if (sink.places != nullptr) {
+    const LanePlaces& places = *sink.places;
+    std::copy_n(&places.triangles[first], count, group.triangle);
+    std::copy_n(&places.u[first], count, group.u);
+    std::copy_n(&places.v[first], count, group.v);
+  }
+  group.wanted = (1u << count) - 1;
+  if (std::isfinite(sum)) return;
+  for (std::size_t lane = 0; lane < count; ++lane) {
+    const vec3& point = sink.scenePoints[first + lane];
+    if (std::isfinite(point.x + point.y + point.z)) continue;
+    group.wanted &= ~(1u << lane);
+    sink.write(first + lane, VirtualVertex{});
+  }
+}
+
+/// What searchLanes() says, and the double search of what is hard.
+void VirtualObjectSolver::conclude(const VertexSink& sink, const LaneGroup& group) const {
   const auto write = [&](std::size_t lane, VertexKind kind) {
-    sink.write(first + lane, laneOf(group.virtualPosition, lane), laneOf(group.position, lane), kind);
+    sink.write(group.vertex[lane], laneOf(group.virtualPosition, lane), laneOf(group.position, lane), kind);
   };
-  // 1
-  hideLanes(laneView_, group);
-  forEachLane(group.hidden, [&](std::size_t lane) { write(lane, VertexKind::DoublyVirtual); });
-  group.wanted &= ~group.hidden;
-  if (group.wanted == 0) return;
-  // 2
-  searchLanes(laneView_, group);
+  const auto isOutside = [&](std::size_t lane) { return (group.isOutside >> lane & 1u) != 0; };
   forEachLane(group.found, [&](std::size_t lane) {
-    write(lane, (group.isOutside >> lane & 1u) != 0 ? VertexKind::PastBoundary : VertexKind::Reflected);
+    write(lane, isOutside(lane) ? VertexKind::PastBoundary : VertexKind::Reflected);
   });
-  if (places != nullptr)
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      const bool isFound = (group.found >> lane & 1u) != 0, isHard = (group.hard >> lane & 1u) != 0;
-      if (isHard) continue;
-      places->triangles[first + lane] = isFound ? group.triangle[lane] : -1;
-      places->u[first + lane] = group.u[lane], places->v[first + lane] = group.v[lane];
-    }
+  if (sink.places != nullptr)
+    forEachLane(group.found | group.lost, [&](std::size_t lane) {
+      const std::size_t i = group.vertex[lane];
+      const bool isFound = (group.found >> lane & 1u) != 0;
+      sink.places->triangles[i] = isFound ? group.triangle[lane] : -1;
+      sink.places->u[i] = group.u[lane], sink.places->v[i] = group.v[lane];
+    });
   forEachLane(group.lost, [&](std::size_t lane) {
-    const dvec3 point(sink.scenePoints[first + lane]);
-    if (const auto hiding = findHidingPoint(point, false))
-      sink.write(first + lane, mirrorHidden(*hiding, point));
-    else
-      write(lane, VertexKind::DoublyVirtual);
+    const dvec3 point(sink.scenePoints[group.vertex[lane]]);
+    const SurfacePoint at{std::uint32_t(group.triangle[lane]), group.u[lane], group.v[lane]};
+    const MirrorLaw law = evaluateMirrorLaw(mesh_->triangles()[at.triangle], at.u, at.v, eye_, point);
+    sink.write(group.vertex[lane], placeUnreflected({at, law}, point).checked());
   });
-  // 3
-  forEachLane(group.hard, [&](std::size_t lane) { solveHard(sink, first + lane); });
+  forEachLane(group.hard, [&](std::size_t lane) { solveHard(sink, group.vertex[lane]); });
 }
 
 void VirtualObjectSolver::solveHard(const VertexSink& sink, std::size_t i) const {
@@ -119,9 +129,44 @@ void VirtualObjectSolver::solveHard(const VertexSink& sink, std::size_t i) const
   places->u[i] = float(vertex->at.u), places->v[i] = float(vertex->at.v);
 }
 
-void VirtualObjectSolver::computeInLanes(const VertexSink& sink, std::size_t begin, std::size_t end) const {
-  for (std::size_t first = begin; first < end; first += kLanes)
-    solveGroup(sink, first, std::min(end - first, std::size_t(kLanes)));
+void VirtualObjectSolver::solveGroup(const VertexSink& sink, LaneGroup& group, Stragglers& stragglers) const {
+  // 1
+  hideLanes(laneView_, group);
+  forEachLane(group.hidden, [&](std::size_t lane) {
+    sink.write(group.vertex[lane], laneOf(group.virtualPosition, lane), laneOf(group.position, lane),
+               VertexKind::DoublyVirtual);
+  });
+  group.wanted &= ~group.hidden;
+  if (group.wanted == 0) return;
+  // 2
+  searchLanes(laneView_, group, kStragglers);
+  conclude(sink, group);
+  // 3
+  forEachLane(group.goesOn, [&](std::size_t lane) {
+    moveLane(group, lane, stragglers.group, stragglers.count++);
+    if (stragglers.count == std::size_t(kLanes)) solveStragglers(sink, stragglers);
+  });
+}
+
+void VirtualObjectSolver::solveStragglers(const VertexSink& sink, Stragglers& stragglers) const {
+  if (stragglers.count == 0) return;
+  LaneGroup& group = stragglers.group;
+  group.wanted = (1u << stragglers.count) - 1;
+  group.hasBegun = true;
+  for (std::size_t lane = stragglers.count; lane < std::size_t(kLanes); ++lane)
+    moveLane(group, 0, group, lane);
+  searchLanes(laneView_, group, 0);
+  conclude(sink, group);
+  stragglers.count = 0;
+}
+
+void VirtualObjectSolver::computeInLanes(const VertexSink& sink, std::size_t begin, std::size_t end,
+                                         Stragglers& stragglers) const {
+  for (std::size_t first = begin; first < end; first += kLanes) {
+    LaneGroup group;
+    gatherGroup(sink, first, std::min(end - first, std::size_t(kLanes)), group);
+    solveGroup(sink, group, stragglers);
+  }
 }
 
 }  // namespace catoptric::virtual_object

@@ -67,6 +67,10 @@ struct MirrorLaw {
   /// Square of the sine of the angle between half vector and normal; NaN where h = 0.
   [[nodiscard]] double squaredSine() const { return qq / (glm::dot(h, h) * nn * nn); }
   [[nodiscard]] bool isWithin(double sine) const { return qq <= sine * sine * glm::dot(h, h) * nn * nn; }
+  /// The ray from the eye to the point goes straight on here: into the mirror, which hides the point. The
+  /// search ends here too, for q vanishes with h.
+  static constexpr double kStraight = 1e-4;
+  [[nodiscard]] bool isStraight() const { return glm::dot(h, h) < kStraight * kStraight; }
   /// Square of |s q| / (n.n), the merit function of the search, a length squared.
   [[nodiscard]] double squaredMerit() const {
     const double s = distanceEye * distancePoint * inverseSum;
@@ -148,11 +152,12 @@ struct SearchResult {
     const MirrorTriangle& t = triangles[at.triangle];
     result.at = at;
     result.law = evaluateMirrorLaw(t, at.u, at.v, eye, point);
-    if (result.law.hn > 0 && result.law.isWithin(tolerance)) {
-      result.converged = true;
+    if (result.law.isWithin(tolerance)) {  // a root on the back side holds the search fast
+      result.converged = result.law.hn > 0;
       return result;
     }
-    if (result.steps >= maxSteps || !(result.law.distancePoint > kTouching * result.law.distanceEye))
+    if (result.law.isStraight() || result.steps >= maxSteps ||
+        !(result.law.distancePoint > kTouching * result.law.distanceEye))
       return result;
     // Far past the last edge the extrapolated mirror is no guide; such a point is far from being reflected.
     if (std::min({at.u, at.v, 1.0 - at.u - at.v}) < -kFarOutside && ++stepsOutside > kMostStepsOutside)

@@ -34,7 +34,6 @@ namespace {
 
 constexpr double kNearSphere = 1.02;       // of the mesh's radius: slightly enlarged
 constexpr double kOnSurface = 1e-7;        // of the mesh's radius: a point this near lies on the mirror
-constexpr double kLongestStep = 0.7;       // of the mesh's radius
 constexpr double kNearlySine = 0.05;       // a root this near is good enough to place a doubly virtual vertex
 constexpr double kOutsideTriangle = 1e-6;  // barycentric slack
 constexpr int kFewSteps = 4;               // where the vertex was seen before is near, or no use
@@ -165,7 +164,7 @@ SurfacePoint VirtualObjectSolver::findSeed(const SeedPixel& seed, double nearWei
   SurfacePoint at{heavierTriangle(seed, nearWeight)};
   const dvec2 target = mesh_->triangles()[at.triangle].project(blend);
   walkOnMesh(mesh_->triangles(), at, target.x - at.u, target.y - at.v);
-  return at;
+  return clampToTriangle(at.triangle, at.u, at.v);  // past the mesh's end searches go astray
 }
 
 bool VirtualObjectSolver::isPastBoundary(const SurfacePoint& at) const {
@@ -181,9 +180,9 @@ VirtualVertex VirtualObjectSolver::placeSearched(const SearchResult& found) cons
 
 std::optional<VirtualVertex> VirtualObjectSolver::solveFrom(const SurfacePoint& start,
                                                             const dvec3& scenePoint) const {
-  const SearchResult found = searchReflectionPoint(mesh_->triangles(), start, eye_, scenePoint,
-                                                   std::min(options_.newtonSteps, kFewSteps),
-                                                   options_.tolerance, kLongestStep * mesh_->radius());
+  const SearchResult found = searchReflectionPoint(
+      mesh_->triangles(), start, eye_, scenePoint, std::min(options_.newtonSteps, kFewSteps),
+      options_.tolerance, options_.longestStep * mesh_->radius());
   if (!found.converged) return std::nullopt;
   return placeSearched(found);
 }
@@ -194,7 +193,7 @@ VirtualVertex VirtualObjectSolver::solveRefined(const dvec3& scenePoint, const S
     if (const auto hiding = findHidingPoint(scenePoint, true)) return mirrorHidden(*hiding, scenePoint);
   const SearchResult found =
       searchReflectionPoint(mesh_->triangles(), findSeed(seed, nearWeight), eye_, scenePoint,
-                            options_.newtonSteps, options_.tolerance, kLongestStep * mesh_->radius());
+                            options_.newtonSteps, options_.tolerance, options_.longestStep * mesh_->radius());
   VirtualVertex vertex = placeSearched(found);
   if (found.converged) return vertex;
 
@@ -204,9 +203,20 @@ VirtualVertex VirtualObjectSolver::solveRefined(const dvec3& scenePoint, const S
     vertex.virtualPosition = scenePoint;
     return vertex;
   }
+  return placeUnreflected(found, scenePoint);
+}
+
+/// Step 4 of Refined, from where the search ended.
+VirtualVertex VirtualObjectSolver::placeUnreflected(const SearchResult& end, const dvec3& scenePoint) const {
   if (const auto hiding = findHidingPoint(scenePoint, false)) return mirrorHidden(*hiding, scenePoint);
-  // Not hidden either: only a longer skirt would reflect it, or it is within a map pixel of the shadow.
-  if (!(law.hn > 0 && (isPastBoundary(found.at) || law.isWithin(kNearlySine)))) return {};
+  // Not by the map. It may be hidden within a map pixel of the shadow's edge.
+  const MirrorLaw& law = end.law;
+  const bool isOutside = isPastBoundary(end.at), isStraight = law.isStraight();
+  if (isStraight && !isOutside && glm::dot(law.normal, law.toEye) > 0)
+    return mirrorHidden(end.at, scenePoint);
+  // Or only a longer skirt would reflect it, or hide it.
+  if (!(isOutside ? law.hn > 0 || isStraight : law.hn > 0 && law.isWithin(kNearlySine))) return {};
+  VirtualVertex vertex = placeSearched(end);
   vertex.kind = VertexKind::DoublyVirtual;
   return vertex;
 }
@@ -281,6 +291,7 @@ void VirtualObjectSolver::compute(Solver solver, std::span<const vec3> scenePoin
   const std::size_t runs = (scenePoints.size() + kRunLength - 1) / kRunLength;
   assert(mayReflect.empty() || mayReflect.size() == runs);
   core::parallelFor(runs, kRunsPerTask, [&](std::size_t firstRun, std::size_t endRun) {
+    Stragglers stragglers;
     for (std::size_t run = firstRun; run < endRun; ++run) {
       const std::size_t begin = run * kRunLength, end = std::min(begin + kRunLength, scenePoints.size());
       if (!mayReflect.empty() && mayReflect[run] == 0)
@@ -289,10 +300,11 @@ void VirtualObjectSolver::compute(Solver solver, std::span<const vec3> scenePoin
       else if (solver != Solver::Refined || !canReflect_)
         for (std::size_t i = begin; i < end; ++i) sink.write(i, solve(solver, dvec3(scenePoints[i])));
       else if (mesh_->isConvex())  // one root only: a vertex may start from its predecessor
-        computeInLanes(sink, begin, end);
+        computeInLanes(sink, begin, end, stragglers);
       else
         computeInOrder(sink, begin, end);
     }
+    solveStragglers(sink, stragglers);
   });
 }
 

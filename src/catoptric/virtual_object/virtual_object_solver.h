@@ -43,8 +43,9 @@ struct SolverOptions {
   /// On a convex mirror, how far the eye may go, as a share of its distance to the mirror, until near and far
   /// map are filled anew. Only for Refined, whose searches end in the one root wherever they begin.
   double mapsServeWithin = 0;
-  int newtonSteps = 16;     ///< most evaluations of Refined; three are usual
-  double tolerance = 1e-5;  ///< of Refined: sine of the angle between normal and half vector at J
+  int newtonSteps = 16;      ///< most evaluations of Refined; three are usual
+  double longestStep = 0.7;  ///< of Refined, of the mesh's radius
+  double tolerance = 1e-5;   ///< of Refined: sine of the angle between normal and half vector at J
 };
 
 /// Where the eye sees a scene point.
@@ -90,6 +91,12 @@ struct VertexSink {
     write(i, isUsable ? vec3(vertex.virtualPosition) : scenePoints[i],
           isUsable ? vec3(vertex.position) : scenePoints[i], vertex.kind);
   }
+};
+
+/// Searches that took longer than those beside them (refined_in_lanes.cpp).
+struct Stragglers {
+  LaneGroup group;
+  std::size_t count = 0;
 };
 
 class VirtualObjectSolver {
@@ -153,10 +160,15 @@ class VirtualObjectSolver {
   [[nodiscard]] bool isPastBoundary(const SurfacePoint& at) const;
   /// Step 3 of Refined, as if the law were held.
   [[nodiscard]] VirtualVertex placeSearched(const SearchResult& found) const;
+  [[nodiscard]] VirtualVertex placeUnreflected(const SearchResult& end, const dvec3& scenePoint) const;
   [[nodiscard]] bool doMapsServe(const dvec3& eye) const;
   void computeInOrder(const VertexSink& sink, std::size_t begin, std::size_t end) const;
-  void computeInLanes(const VertexSink& sink, std::size_t begin, std::size_t end) const;
-  void solveGroup(const VertexSink& sink, std::size_t first, std::size_t count) const;
+  void computeInLanes(const VertexSink& sink, std::size_t begin, std::size_t end,
+                      Stragglers& stragglers) const;
+  static void gatherGroup(const VertexSink& sink, std::size_t first, std::size_t count, LaneGroup& group);
+  void solveGroup(const VertexSink& sink, LaneGroup& group, Stragglers& stragglers) const;
+  void solveStragglers(const VertexSink& sink, Stragglers& stragglers) const;
+  void conclude(const VertexSink& sink, const LaneGroup& group) const;
   void solveHard(const VertexSink& sink, std::size_t vertex) const;
   void prepareLanes();
   [[nodiscard]] VirtualVertex solveFound(const dvec3& scenePoint) const;
