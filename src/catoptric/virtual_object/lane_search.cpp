@@ -46,7 +46,7 @@ struct Search {
   Triangles t;  ///< of `at`
   Eight stepU, stepV, merit;
   EightInts steps, stepsOutside, shortened;
-  EightInts active, found{}, lost{}, hard{};
+  EightInts active, found{}, lost{}, lostAhead{}, hard{};
 };
 
 /// Step 1: where the eye sees what the maps say, in the triangle that the hidden map shows there.
@@ -189,6 +189,8 @@ struct SearchLanes {
     const EightInts isAstray = ~isLast & isFar & (s.stepsOutside > kMostStepsOutside);
     const EightInts isLost = s.active & (isStraight | isBehind | isAstray);
     s.lost |= isLost;
+    const EightInts isPastEnd = outsideBy(s.at.u, s.at.v) > kOutside;
+    s.lostAhead |= isLost & isPastEnd & (isStraight | (law.facing > 0.0f));
     const EightInts isHard =
         (isLast ? law.facing <= kGrazing : s.steps >= kMaxSteps) | ~(law.distance > view.touching);
     s.hard |= s.active & ~isLost & isHard;
@@ -229,7 +231,7 @@ struct SearchLanes {
     storeAs(group.triangle, s.at.triangle), store(group.u, s.at.u), store(group.v, s.at.v);
     group.found = toBits(s.found), group.lost = toBits(s.lost), group.hard = toBits(s.hard);
     group.goesOn = toBits(s.active);
-    group.isOutside = group.found & toBits(outsideBy(s.at.u, s.at.v) > kOutside);
+    group.isOutside = toBits((s.found & (outsideBy(s.at.u, s.at.v) > kOutside)) | s.lostAhead);
     for (int i = 0; i < kLanes; ++i)
       if (view.triangles[std::uint32_t(s.at.triangle[i])].flags & MirrorTriangle::kSkirt)
         group.isOutside |= (1u << i) & group.found;

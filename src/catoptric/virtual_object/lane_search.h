@@ -104,7 +104,7 @@ struct alignas(64) LaneGroup {
   unsigned lost = 0;       ///< has no root: straight through the mirror, on its back, or far past its edge
   unsigned hard = 0;       ///< for the double search
   unsigned goesOn = 0;     ///< not ready yet
-  unsigned isOutside = 0;  ///< of those found, past the mirror's edge
+  unsigned isOutside = 0;  ///< of those found, past the mirror's edge; of those lost, past it and in front
   LaneFloats virtualPosition[3], position[3];  ///< Q', J, world
 };
 
