@@ -22,13 +22,12 @@ constexpr float kAlmostSine = 2e-3f;  // one more step leaves about the square o
 constexpr float kStaleSine = 0.1f;    // the maps know better than the last frame
 constexpr float kGrazing = 0.02f;     // of h.n = 2 cos(angle of incidence): below it floats lose too much
 constexpr auto kStraight = float(MirrorLaw::kStraight);
-constexpr float kShorter = 0.35f;     // a step that made it worse
-constexpr int kMostShortened = 4;     // in a row; then onwards all the same
-constexpr int kMaxSteps = 12;         // more means that the start was bad
-constexpr float kFarOutside = 0.5f;   // there the extrapolated mirror is no guide
-constexpr int kMostStepsOutside = 3;  // there
-constexpr float kOutside = 1e-5f;     // barycentric slack
-constexpr int kMostCrossings = 16;    // of edges in one step; the next one goes on
+constexpr auto kShorter = float(search_limits::kShorter);
+constexpr auto kFarOutside = float(search_limits::kFarOutside);
+constexpr int kMostShortened = 4;   // in a row; then onwards all the same
+constexpr int kMaxSteps = 12;       // more means that the start was bad
+constexpr float kOutside = 1e-5f;   // barycentric slack
+constexpr int kMostCrossings = 16;  // of edges in one step; the next one goes on
 
 /// A place on the mirror in each lane.
 struct Places {
@@ -46,7 +45,7 @@ struct Search {
   Triangles t;  ///< of `at`
   Eight stepU, stepV, merit;
   EightInts steps, stepsOutside, shortened;
-  EightInts active, found{}, lost{}, lostAhead{}, hard{};
+  EightInts active, found{}, lost{}, hard{};
 };
 
 /// Step 1: where the eye sees what the maps say, in the triangle that the hidden map shows there.
@@ -186,11 +185,9 @@ struct SearchLanes {
     s.stepsOutside -= s.active & isFar;
     const EightInts isStraight = law.squaredHalf < kStraight * kStraight;
     const EightInts isBehind = isLast & (law.facing < 0.0f);
-    const EightInts isAstray = ~isLast & isFar & (s.stepsOutside > kMostStepsOutside);
+    const EightInts isAstray = ~isLast & isFar & (s.stepsOutside > search_limits::kMostStepsOutside);
     const EightInts isLost = s.active & (isStraight | isBehind | isAstray);
     s.lost |= isLost;
-    const EightInts isPastEnd = outsideBy(s.at.u, s.at.v) > kOutside;
-    s.lostAhead |= isLost & isPastEnd & (isStraight | (law.facing > 0.0f));
     const EightInts isHard =
         (isLast ? law.facing <= kGrazing : s.steps >= kMaxSteps) | ~(law.distance > view.touching);
     s.hard |= s.active & ~isLost & isHard;
@@ -231,7 +228,7 @@ struct SearchLanes {
     storeAs(group.triangle, s.at.triangle), store(group.u, s.at.u), store(group.v, s.at.v);
     group.found = toBits(s.found), group.lost = toBits(s.lost), group.hard = toBits(s.hard);
     group.goesOn = toBits(s.active);
-    group.isOutside = toBits((s.found & (outsideBy(s.at.u, s.at.v) > kOutside)) | s.lostAhead);
+    group.isOutside = group.found & toBits(outsideBy(s.at.u, s.at.v) > kOutside);
     for (int i = 0; i < kLanes; ++i)
       if (view.triangles[std::uint32_t(s.at.triangle[i])].flags & MirrorTriangle::kSkirt)
         group.isOutside |= (1u << i) & group.found;

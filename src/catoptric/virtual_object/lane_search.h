@@ -93,7 +93,7 @@ struct alignas(64) LaneGroup {
   std::size_t vertex[kLanes];     ///< the caller's
   LaneFloats point[3];            ///< in: Q, world
   std::int32_t triangle[kLanes];  ///< in: as LanePlaces; out: where the search stands
-  LaneFloats u, v;
+  LaneFloats u = {}, v = {};
   bool hasBegun = false;  ///< in: searchLanes() left it before it was ready
   LaneState state;        ///< if so
 
@@ -104,7 +104,7 @@ struct alignas(64) LaneGroup {
   unsigned lost = 0;       ///< has no root: straight through the mirror, on its back, or far past its edge
   unsigned hard = 0;       ///< for the double search
   unsigned goesOn = 0;     ///< not ready yet
-  unsigned isOutside = 0;  ///< of those found, past the mirror's edge; of those lost, past it and in front
+  unsigned isOutside = 0;  ///< of those found, past the mirror's edge
   LaneFloats virtualPosition[3], position[3];  ///< Q', J, world
 };
 

@@ -104,9 +104,6 @@ void VirtualObjectSolver::conclude(const VertexSink& sink, const LaneGroup& grou
     });
   forEachLane(group.lost, [&](std::size_t lane) {
     const dvec3 point(sink.scenePoints[group.vertex[lane]]);
-    if (const auto hiding = findHidingPoint(point, false))
-      return sink.write(group.vertex[lane], mirrorHidden(*hiding, point));
-    if (isOutside(lane)) return write(lane, VertexKind::DoublyVirtual);
     const SurfacePoint at{std::uint32_t(group.triangle[lane]), group.u[lane], group.v[lane]};
     const MirrorLaw law = evaluateMirrorLaw(mesh_->triangles()[at.triangle], at.u, at.v, eye_, point);
     sink.write(group.vertex[lane], placeUnreflected({at, law}, point).checked());

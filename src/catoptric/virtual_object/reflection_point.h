@@ -67,8 +67,8 @@ struct MirrorLaw {
   /// Square of the sine of the angle between half vector and normal; NaN where h = 0.
   [[nodiscard]] double squaredSine() const { return qq / (glm::dot(h, h) * nn * nn); }
   [[nodiscard]] bool isWithin(double sine) const { return qq <= sine * sine * glm::dot(h, h) * nn * nn; }
-  /// The ray from the eye to the point goes straight on here: into the mirror, which hides the point. The
-  /// search ends here too, for q vanishes with h.
+  /// The ray from the eye to the point goes straight on here, into the mirror, which hides the point. q
+  /// vanishes with h, so searches are drawn here.
   static constexpr double kStraight = 1e-4;
   [[nodiscard]] bool isStraight() const { return glm::dot(h, h) < kStraight * kStraight; }
   /// Square of |s q| / (n.n), the merit function of the search, a length squared.
@@ -128,6 +128,14 @@ inline void walkOnMesh(std::span<const MirrorTriangle> triangles, SurfacePoint& 
   static_cast<void>(walkOverMesh(triangles, at, du, dv, 96));
 }
 
+/// Of the damped Newton search, one vertex or eight at a time (lane_search.h).
+namespace search_limits {
+inline constexpr double kShorter = 0.35;  // of a step that made it worse
+inline constexpr double kFarOutside =
+    0.5;  // of a triangle past the last edge: the extrapolated mirror is no guide
+inline constexpr int kMostStepsOutside = 3;  // there: such a point is far from being reflected
+}  // namespace search_limits
+
 struct SearchResult {
   SurfacePoint at;
   MirrorLaw law;
@@ -139,10 +147,9 @@ struct SearchResult {
 [[nodiscard]] inline SearchResult searchReflectionPoint(std::span<const MirrorTriangle> triangles,
                                                         SurfacePoint at, const dvec3& eye, const dvec3& point,
                                                         int maxSteps, double tolerance, double longestStep) {
-  constexpr double kShorter = 0.35, kLeastDamping = 0.02;
+  using namespace search_limits;
+  constexpr double kLeastDamping = 0.02;
   constexpr double kTouching = 1e-12;  // the point lies on the mirror, where the law has no meaning
-  constexpr double kFarOutside = 0.5;
-  constexpr int kMostStepsOutside = 3;
   SearchResult result;
   int stepsOutside = 0;
   SurfacePoint lastGood = at;
@@ -159,7 +166,6 @@ struct SearchResult {
     if (result.law.isStraight() || result.steps >= maxSteps ||
         !(result.law.distancePoint > kTouching * result.law.distanceEye))
       return result;
-    // Far past the last edge the extrapolated mirror is no guide; such a point is far from being reflected.
     if (std::min({at.u, at.v, 1.0 - at.u - at.v}) < -kFarOutside && ++stepsOutside > kMostStepsOutside)
       return result;
     const double merit = result.law.squaredMerit();

@@ -209,7 +209,7 @@ VirtualVertex VirtualObjectSolver::solveRefined(const dvec3& scenePoint, const S
 /// Step 4 of Refined, from where the search ended.
 VirtualVertex VirtualObjectSolver::placeUnreflected(const SearchResult& end, const dvec3& scenePoint) const {
   if (const auto hiding = findHidingPoint(scenePoint, false)) return mirrorHidden(*hiding, scenePoint);
-  // Not by the map. It may be hidden within a map pixel of the shadow's edge.
+  // The map does not see what is hidden within a pixel of the shadow's edge.
   const MirrorLaw& law = end.law;
   const bool isOutside = isPastBoundary(end.at), isStraight = law.isStraight();
   if (isStraight && !isOutside && glm::dot(law.normal, law.toEye) > 0)
@@ -283,8 +283,6 @@ void VirtualObjectSolver::compute(Solver solver, std::span<const vec3> scenePoin
                                   LanePlaces* places) const {
   assert(virtualPositions.size() == scenePoints.size() && kinds.size() == scenePoints.size());
   assert(reflectionPoints.empty() || reflectionPoints.size() == scenePoints.size());
-  // Runs at fixed places: a vertex starts from its predecessor, and the result must not depend on the
-  // threads.
   if (places != nullptr) places->resize(scenePoints.size());
   const VertexSink sink{scenePoints, virtualPositions, kinds, reflectionPoints, places};
   constexpr std::size_t kRunsPerTask = 16;
@@ -299,7 +297,7 @@ void VirtualObjectSolver::compute(Solver solver, std::span<const vec3> scenePoin
                   VertexKind::None);
       else if (solver != Solver::Refined || !canReflect_)
         for (std::size_t i = begin; i < end; ++i) sink.write(i, solve(solver, dvec3(scenePoints[i])));
-      else if (mesh_->isConvex())  // one root only: a vertex may start from its predecessor
+      else if (mesh_->isConvex())  // one root only: wherever a search begins, it ends there
         computeInLanes(sink, begin, end, stragglers);
       else
         computeInOrder(sink, begin, end);
