@@ -27,7 +27,7 @@ out vec2 v_uv1;
 out vec4 v_color;
 out vec3 v_drawPosition;
 out vec3 v_towardsMirror;  // world axes
-out vec3 v_kinds;          // 1 at a vertex that is not there; 1 at a reflected one; 0 at one past the boundary
+out vec2 v_kinds;          // 1 at a vertex that is not there; 0 at a hidden one
 
 void main() {
 #ifdef FLAT_CONSTANTS
@@ -42,8 +42,7 @@ void main() {
   vec3 scenePoint = (u_drawFromWorld * vec4(a_position, 1.0f)).xyz - u_mirrorCentre;
   VirtualVertex vertex = findVirtualVertex(scenePoint);
   v_towardsMirror = transpose(mat3(u_drawFromWorld)) * (vertex.onMirror - scenePoint);
-  v_kinds = vec3(vertex.kind == kNone ? 1.0f : 0.0f, vertex.kind == kReflected ? 1.0f : 0.0f,
-                 vertex.kind == kPastBoundary ? 0.0f : 1.0f);
+  v_kinds = vec2(vertex.kind == kNone ? 1.0f : 0.0f, vertex.kind == kDoublyVirtual ? 0.0f : 1.0f);
   v_drawPosition = vertex.position + u_mirrorCentre;
   gl_Position = u_clipFromDraw * vec4(v_drawPosition, 1.0f);
 }

@@ -29,7 +29,7 @@ struct Judge {
   std::span<const vec3> scenePoints, virtualPositions, reflectionPoints;
   std::span<const VertexKind> kinds;
   vec3 eye;
-  float longestChord;
+  LongestChords longest;
 };
 
 /// Eight points or directions.
@@ -70,28 +70,34 @@ CATOPTRIC_INLINE EightInts findSides(const Vectors& normal, const Vectors (&offs
   return front | behind;
 }
 
-/// Bits for those with a None corner, or with neither a Reflected nor three PastBoundary ones; `mixed`: for
-/// those of two kinds.
-unsigned findKindless(const Judge& judge, const std::uint32_t* corners, unsigned& mixed) {
-  unsigned dropped = 0;
-  mixed = 0;
+/// Bits for eight triangles in a row.
+struct ByKinds {
+  unsigned dropped = 0;     ///< a None corner, or three hidden ones
+  unsigned partly = 0;      ///< reflected in part
+  unsigned atBoundary = 0;  ///< not reflected at any corner, hidden at some
+};
+
+ByKinds sortByKinds(const Judge& judge, const std::uint32_t* corners) {
+  ByKinds found;
   for (unsigned i = 0; i < unsigned(kLanes); ++i, corners += 3) {
     unsigned present = 0;  // a bit for each kind
     for (int k = 0; k < 3; ++k) present |= 1u << unsigned(judge.kinds[corners[k]]);
     constexpr unsigned kNone = 1u << unsigned(VertexKind::None),
                        kReflected = 1u << unsigned(VertexKind::Reflected),
-                       kPastBoundary = 1u << unsigned(VertexKind::PastBoundary);
-    dropped |= unsigned((present & (kNone | kReflected)) != kReflected && present != kPastBoundary) << i;
-    mixed |= unsigned(present != kReflected) << i;
+                       kHidden = 1u << unsigned(VertexKind::DoublyVirtual);
+    found.dropped |= unsigned((present & kNone) != 0 || present == kHidden) << i;
+    const bool isReflected = (present & kReflected) != 0, isHidden = (present & kHidden) != 0;
+    found.partly |= unsigned(isReflected && present != kReflected) << i;
+    found.atBoundary |= unsigned(!isReflected && isHidden) << i;
   }
-  return dropped;
+  return found;
 }
 
 /// Of eight triangles in a row, those that are not worth drawing.
 struct FindDropped {
   static CATOPTRIC_INLINE void run(const Judge& judge, const std::uint32_t*& corners, unsigned& dropped) {
-    unsigned mixed;
-    dropped = findKindless(judge, corners, mixed);
+    const ByKinds kinds = sortByKinds(judge, corners);
+    dropped = kinds.dropped;
     if (dropped == 0xffu) return;
     Vectors q[3], w[3], j[3];
     for (int k = 0; k < 3; ++k) {
@@ -106,11 +112,13 @@ struct FindDropped {
     const Vectors eye{{zero + judge.eye.x, zero + judge.eye.y, zero + judge.eye.z}};
     const Eight image = dot(cross(w[1] - w[0], w[2] - w[0]), eye - w[0]);
     dropped |= toBits(isSure & (inFront ? image > 0.0f : image < 0.0f));
-    if (mixed == 0) return;
+    if ((kinds.partly | kinds.atBoundary) == 0) return;
     const Vectors chords[3] = {j[0] - j[1], j[1] - j[2], j[2] - j[0]};
-    EightInts isLong{};
-    for (const Vectors& chord : chords) isLong |= core::squareRoot(dot(chord, chord)) > judge.longestChord;
-    dropped |= mixed & toBits(isLong);
+    Eight longest{};  // squared
+    for (const Vectors& chord : chords) longest = core::larger(longest, dot(chord, chord));
+    longest = core::squareRoot(longest);
+    dropped |= (kinds.partly & toBits(longest > judge.longest.atRim)) |
+               (kinds.atBoundary & toBits(longest > judge.longest.atBoundary));
   }
 };
 
@@ -119,12 +127,12 @@ struct FindDropped {
 void dropVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
                           std::span<const vec3> virtualPositions, std::span<const VertexKind> kinds,
                           std::span<const vec3> reflectionPoints, std::span<std::uint8_t> isKept,
-                          std::span<const vec3> scenePoints, float longestChord) {
+                          std::span<const vec3> scenePoints, const LongestChords& longest) {
   if (scenePoints.empty()) scenePoints = objects.positions;
   assert(scenePoints.size() == objects.positions.size());
   assert(virtualPositions.size() == objects.positions.size() && kinds.size() == objects.positions.size());
   assert(reflectionPoints.size() == objects.positions.size());
-  const Judge judge{scenePoints, virtualPositions, reflectionPoints, kinds, vec3(eye), longestChord};
+  const Judge judge{scenePoints, virtualPositions, reflectionPoints, kinds, vec3(eye), longest};
   assert(isKept.size() == objects.indices.size() / 3);
   core::parallelFor(isKept.size(), kTrianglesPerTask, [&](std::size_t begin, std::size_t end) {
     dropByEights(objects.indices, begin, end, isKept, [&](const std::uint32_t* corners) {
@@ -138,10 +146,10 @@ void dropVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
 void markVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,
                           std::span<const vec3> virtualPositions, std::span<const VertexKind> kinds,
                           std::span<const vec3> reflectionPoints, VirtualTriangles& out,
-                          std::span<const vec3> scenePoints, float longestChord) {
+                          std::span<const vec3> scenePoints, const LongestChords& longest) {
   out.isKept.assign(objects.indices.size() / 3, 1);
   dropVirtualTriangles(objects, eye, virtualPositions, kinds, reflectionPoints, out.isKept, scenePoints,
-                       longestChord);
+                       longest);
 }
 
 void selectVirtualTriangles(const TessellatedObjects& objects, const dvec3& eye,

@@ -30,7 +30,7 @@ void VirtualObjectMethod::markTriangles(const raster::FrameContext& frame, Numbe
   if (!m.prepared) return;
   const Prepared& p = *m.prepared;
   raster::dropVirtualTriangles(p.objects, m.view.drawEye, p.virtualPositions, p.kinds, p.reflectionPoints,
-                               m.triangles.isKept, {}, findLongestChord(p));
+                               m.triangles.isKept, {}, findLongestChords(p));
 }
 
 void VirtualObjectMethod::drawNumbersByGl(raster::FrameContext& frame, NumberedMirror& m) {

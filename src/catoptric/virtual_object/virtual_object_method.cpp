@@ -88,11 +88,13 @@ void VirtualObjectMethod::prepare(raster::FrameContext& frame) {
   last_.clear();
 }
 
-/// For dropVirtualTriangles(): the chord whose sag is a pixel, where the mirror covers the pixels that it was
-/// prepared for.
-float VirtualObjectMethod::findLongestChord(const Prepared& p) {
-  if (p.mesh.ordinaryCount() != p.mesh.triangles().size()) return std::numeric_limits<float>::infinity();
-  return float(p.mesh.bodyRadius() * std::sqrt(16.0 / p.sizePx));
+/// The chord whose sag is twice the error that is allowed, or a pixel, where the mirror covers the pixels that
+/// it was prepared for.
+raster::LongestChords VirtualObjectMethod::findLongestChords(const Prepared& p) {
+  const double sagPx = std::max(2.0 * p.maxErrorPx, 1.0);
+  const auto longest = float(p.mesh.bodyRadius() * std::sqrt(16.0 * sagPx / p.sizePx));
+  const bool hasBoundary = p.mesh.ordinaryCount() != p.mesh.triangles().size();
+  return {hasBoundary ? std::numeric_limits<float>::infinity() : longest, longest};
 }
 
 VirtualObjectMethod::InParts::InParts(const ReflectorMesh& mesh) : InParts(mesh, cutIntoParts(mesh)) {}

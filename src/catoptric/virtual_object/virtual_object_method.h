@@ -177,7 +177,7 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   static void addTessellation(const scene::WorldGeometry& world, const Prepared& p, raster::Marks& marks);
   static void addCells(const Prepared& p, double rayLength, raster::Marks& marks);
   static void addPath(const Prepared& p, const dvec3& point, raster::Marks& marks);
-  [[nodiscard]] static float findLongestChord(const Prepared& prepared);
+  [[nodiscard]] static raster::LongestChords findLongestChords(const Prepared& prepared);
   /// True where the environment is there, too.
   bool drawObjects(raster::FrameContext& frame, const raster::Chain& chain, const raster::Level& parent,
                    raster::Level& target);

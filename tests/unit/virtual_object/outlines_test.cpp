@@ -123,11 +123,37 @@ TEST(Selection, keepsWhatLiesAcrossACornerOfTheMirror) {
   EXPECT_GT(countKept(VertexKind::Reflected), 0u);
   EXPECT_EQ(countKept(VertexKind::PastBoundary), countKept(VertexKind::Reflected));
   EXPECT_EQ(countKept(VertexKind::DoublyVirtual), 0u);
-  std::vector<VertexKind> mixed(n, VertexKind::PastBoundary);  // two of them and a hidden one
-  for (std::size_t i = 0; i < objects.indices.size(); i += 3)
-    mixed[objects.indices[i]] = VertexKind::DoublyVirtual;
-  selectVirtualTriangles(objects, {0, 0.5, 3}, mirrored, mixed, points, out);
-  EXPECT_EQ(out.indices.size(), 0u);
+}
+
+TEST(Selection, keepsWhatIsHiddenInPartUnlessTheMirrorBendsAwayFromIt) {
+  const test::TestWorld world = makeWorld();
+  const TessellatedObjects objects = tessellateForReflector(world.geometry(), 0);
+  const std::size_t n = objects.positions.size();
+  std::vector<vec3> mirrored(n), points(n, vec3(0));
+  for (std::size_t i = 0; i < n; ++i) mirrored[i] = objects.positions[i] * vec3(1, 1, -1);
+  VirtualTriangles all, some;
+  const dvec3 eye(0, 0.5, 3);
+  const std::vector<VertexKind> reflected(n, VertexKind::Reflected);
+  markVirtualTriangles(objects, eye, mirrored, reflected, points, all);
+  std::vector<VertexKind> kinds(n, VertexKind::PastBoundary);
+  for (std::size_t i = 0; i < n; ++i)
+    if (objects.positions[i].x > 0) kinds[i] = VertexKind::DoublyVirtual, points[i] = vec3(0.2f, 0, 0);
+  const auto expectKept = [&](float longest) {
+    markVirtualTriangles(objects, eye, mirrored, kinds, points, some, {}, {.atBoundary = longest});
+    std::size_t across = 0;
+    for (std::size_t t = 0; t < all.isKept.size(); ++t) {
+      int hidden = 0;
+      for (std::size_t k = 0; k < 3; ++k)
+        hidden += kinds[objects.indices[3 * t + k]] == VertexKind::DoublyVirtual ? 1 : 0;
+      const bool isAcross = hidden == 1 || hidden == 2;
+      across += isAcross ? 1 : 0;
+      const bool isWanted = hidden == 0 || (isAcross && longest > 0.2f);
+      EXPECT_EQ(some.isKept[t] != 0, all.isKept[t] != 0 && isWanted) << t;
+    }
+    EXPECT_GT(across, 0u);
+  };
+  expectKept(0.3f);
+  expectKept(0.1f);
 }
 
 }  // namespace

@@ -243,13 +243,13 @@ TEST(Selection, dropsPartlyHiddenTrianglesAlongALongChord) {
   ASSERT_EQ(std::count(kinds.begin(), kinds.end(), VertexKind::DoublyVirtual), 1);
   ASSERT_EQ(std::count(kinds.begin(), kinds.end(), VertexKind::Reflected), 2);
   VirtualTriangles triangles;
-  markVirtualTriangles(uncut, eye, out, kinds, points, triangles, {}, 0.1f);
+  markVirtualTriangles(uncut, eye, out, kinds, points, triangles, {}, {.atRim = 0.1f});
   EXPECT_EQ(triangles.isKept[0], 0);
   // However long the chord is, of one whose corners are all reflected orientation decides.
   std::fill(kinds.begin(), kinds.end(), VertexKind::Reflected);
   VirtualTriangles all, some;
   markVirtualTriangles(uncut, eye, out, kinds, points, all);
-  markVirtualTriangles(uncut, eye, out, kinds, points, some, {}, 0.1f);
+  markVirtualTriangles(uncut, eye, out, kinds, points, some, {}, {.atRim = 0.1f});
   EXPECT_EQ(all.isKept, some.isKept);
 }
 

@@ -133,13 +133,10 @@ void markIntervalTriangles(const raster::TessellatedObjects& objects, const Inte
   isKept.resize(objects.indices.size() / 3);
   core::parallelFor(isKept.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
-      int reflected = 0, pastBoundary = 0, none = 0;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const VertexKind kind = vertices.kinds[objects.indices[3 * t + k]];
-        reflected += kind == VertexKind::Reflected, pastBoundary += kind == VertexKind::PastBoundary;
-        none += kind == VertexKind::None;
-      }
-      isKept[t] = none == 0 && (reflected > 0 || pastBoundary == 3) ? 1 : 0;
+      const auto isFound = [&](std::size_t k) {
+        return vertices.kinds[objects.indices[3 * t + k]] != VertexKind::None;
+      };
+      isKept[t] = isFound(0) && isFound(1) && isFound(2) ? 1 : 0;
     }
   });
 }

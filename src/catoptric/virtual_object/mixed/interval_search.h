@@ -94,7 +94,7 @@ class IntervalSearch {
   std::vector<std::uint32_t> triangles_;  ///< of the rays
 };
 
-/// Triangles of which every corner has an image in the interval, one of them within the part: 1, else 0.
+/// Triangles of which every corner has an image in the interval: 1, else 0.
 void markIntervalTriangles(const raster::TessellatedObjects& objects, const IntervalVertices& vertices,
                            std::vector<std::uint8_t>& isKept);
 
