@@ -17,14 +17,14 @@ namespace catoptric::virtual_object {
 void VirtualObjectMethod::markTriangles(const raster::FrameContext& frame, NumberedMirror& m) {
   const PictureView picture{mat4(m.view.clipFromDraw), m.view.parent->widthPx, m.view.parent->heightPx,
                             m.view.windingFlipped};
-  const ReflectedCone cone = m.prepared
-                                 ? m.prepared->solver->reflectedCone()
-                                 : makePictureCone(m.view.clipFromDraw, m.view.drawEye,
-                                                   {picture.widthPx, picture.heightPx}, m.chain->bounds);
-  m.culled = m.runs->mark(cone, m.prepared ? m.chain->drawFromWorld : dmat4(1.0), m.triangles.isKept);
+  if (!m.prepared)
+    m.pictureBeam = makePictureBeam(m.view.clipFromDraw, m.view.drawEye, {picture.widthPx, picture.heightPx},
+                                    m.chain->bounds);
+  const ReflectedBeams& beams = m.prepared ? m.prepared->solver->reflectedBeams() : m.pictureBeam;
+  m.culled = m.runs->mark(beams, m.prepared ? m.chain->drawFromWorld : dmat4(1.0), m.triangles.isKept);
   projectVertices(
       picture, m.virtualPositions, m.screen,
-      m.prepared ? std::span<const std::uint8_t>(m.prepared->mayReflect) : std::span<const std::uint8_t>());
+      m.prepared ? std::span<const VertexBits>(m.prepared->mayReflect) : std::span<const VertexBits>());
   m.culled += dropUnseenTriangles(*m.objects, frame.scene.geometry(), picture, m.chain->bounds, m.screen,
                                   m.triangles.isKept);
   if (!m.prepared) return;

@@ -41,12 +41,12 @@ bool VirtualObjectMethod::usesGpu(const Prepared& p) const {
 void VirtualObjectMethod::prepareTextures(const raster::FrameContext& frame, Prepared& p) const {
   if (!p.gpu) {
     p.gpu = std::make_unique<OnGpu>(p.objects);
-    p.gpu->blendedRuns.assign(p.runs.balls().size(), 0);
+    p.gpu->blendedRuns.assign(p.runs.runs(), 0);
     for (const raster::TessellatedPart& part : p.objects.parts) {
       if (!frame.scene.isBlended(part.part) || part.vertexCount == 0) continue;
       p.gpu->hasBlended = true;
-      const std::size_t first = part.firstVertex / VirtualObjectSolver::kRunLength,
-                        last = (part.firstVertex + part.vertexCount - 1) / VirtualObjectSolver::kRunLength;
+      const std::size_t first = part.firstVertex / VertexRuns::kLength,
+                        last = (part.firstVertex + part.vertexCount - 1) / VertexRuns::kLength;
       for (std::size_t run = first; run <= last; ++run) p.gpu->blendedRuns[run] = 1;
     }
   }

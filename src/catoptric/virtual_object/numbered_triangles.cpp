@@ -9,7 +9,6 @@
 #include "catoptric/core/eight_lanes.h"
 #include "catoptric/core/parallel.h"
 #include "catoptric/raster/eight_triangles.h"
-#include "catoptric/virtual_object/virtual_object_solver.h"
 
 namespace catoptric::virtual_object {
 namespace {
@@ -123,8 +122,8 @@ struct ProjectRange {
 }  // namespace
 
 void projectVertices(const PictureView& view, std::span<const vec3> positions, std::vector<vec3>& screen,
-                     std::span<const std::uint8_t> mayReflect) {
-  constexpr std::size_t kRun = VirtualObjectSolver::kRunLength;
+                     std::span<const VertexBits> mayReflect) {
+  constexpr std::size_t kRun = VertexRuns::kLength;
   const vec2 half(0.5f * float(view.widthPx), 0.5f * float(view.heightPx));
   const Projection projection{view.clipFromDraw, half, positions};
   screen.resize(positions.size());

@@ -26,6 +26,7 @@
 #include "catoptric/raster/tessellation.h"
 #include "catoptric/raster/virtual_triangles.h"
 #include "catoptric/virtual_object/hit_shading.h"
+#include "catoptric/virtual_object/culling.h"
 
 namespace catoptric::virtual_object {
 
@@ -45,9 +46,9 @@ struct PictureView {
 };
 
 /// Virtual vertices: pixels and 1 / w; NaN where they do not lie before the eye, and those of runs that have
-/// a 0 in `mayReflect` (findReflectedRuns(); may be empty for all ones).
+/// no bit in `mayReflect` (VertexRuns::findReflected(); may be empty for all ones).
 void projectVertices(const PictureView& view, std::span<const vec3> virtualPositions,
-                     std::vector<vec3>& screen, std::span<const std::uint8_t> mayReflect = {});
+                     std::vector<vec3>& screen, std::span<const VertexBits> mayReflect = {});
 
 /// Clears `isKept` of triangles in which no pixel of `bounds` has its centre, and of those that turn their
 /// back to the eye (where their part has none). How many there were. `screen`: projectVertices().

@@ -59,30 +59,31 @@ void VirtualObjectSolver::prepareLanes() {
 }
 
 /// Up to eight vertices as a group.
-void VirtualObjectSolver::gatherGroup(const VertexSink& sink, std::size_t first, std::size_t count,
+void VirtualObjectSolver::gatherGroup(const VertexSink& sink, std::span<const std::uint32_t> vertices,
                                       LaneGroup& group) {
   float sum = 0;
   for (std::size_t lane = 0; lane < std::size_t(kLanes); ++lane) {
-    const std::size_t i = first + std::min(lane, count - 1);
+    const std::size_t i = vertices[std::min(lane, vertices.size() - 1)];
     group.vertex[lane] = i;
     const vec3& point = sink.scenePoints[i];
     for (int k = 0; k < 3; ++k) group.point[k][lane] = point[k];
     sum += point.x + point.y + point.z;
+    group.triangle[lane] = -1;
   }
-  for (std::size_t lane = 0; lane < std::size_t(kLanes); ++lane) group.triangle[lane] = -1;
   if (sink.places != nullptr) {
     const LanePlaces& places = *sink.places;
-    std::copy_n(&places.triangles[first], count, group.triangle);
-    std::copy_n(&places.u[first], count, group.u);
-    std::copy_n(&places.v[first], count, group.v);
+    for (std::size_t lane = 0; lane < vertices.size(); ++lane) {
+      const std::size_t i = vertices[lane];
+      group.triangle[lane] = places.triangles[i], group.u[lane] = places.u[i], group.v[lane] = places.v[i];
+    }
   }
-  group.wanted = (1u << count) - 1;
+  group.wanted = (1u << vertices.size()) - 1;
   if (std::isfinite(sum)) return;
-  for (std::size_t lane = 0; lane < count; ++lane) {
-    const vec3& point = sink.scenePoints[first + lane];
+  for (std::size_t lane = 0; lane < vertices.size(); ++lane) {
+    const vec3& point = sink.scenePoints[vertices[lane]];
     if (std::isfinite(point.x + point.y + point.z)) continue;
     group.wanted &= ~(1u << lane);
-    sink.write(first + lane, VirtualVertex{});
+    sink.write(vertices[lane], VirtualVertex{});
   }
 }
 
@@ -131,13 +132,19 @@ void VirtualObjectSolver::solveHard(const VertexSink& sink, std::size_t i) const
 
 void VirtualObjectSolver::solveGroup(const VertexSink& sink, LaneGroup& group, Stragglers& stragglers) const {
   // 1
-  hideLanes(laneView_, group);
-  forEachLane(group.hidden, [&](std::size_t lane) {
-    sink.write(group.vertex[lane], laneOf(group.virtualPosition, lane), laneOf(group.position, lane),
-               VertexKind::DoublyVirtual);
-  });
-  group.wanted &= ~group.hidden;
-  if (group.wanted == 0) return;
+  unsigned unknown = 0;
+  for (unsigned lane = 0; lane < unsigned(kLanes); ++lane)
+    unknown |= unsigned(group.triangle[lane] < 0) << lane;
+  unknown &= group.wanted;
+  if (unknown != 0) {
+    hideLanes(laneView_, group);
+    forEachLane(group.hidden & unknown, [&](std::size_t lane) {
+      sink.write(group.vertex[lane], laneOf(group.virtualPosition, lane), laneOf(group.position, lane),
+                 VertexKind::DoublyVirtual);
+    });
+    group.wanted &= ~(group.hidden & unknown);
+    if (group.wanted == 0) return;
+  }
   // 2
   searchLanes(laneView_, group, kStragglers);
   conclude(sink, group);
@@ -160,11 +167,11 @@ void VirtualObjectSolver::solveStragglers(const VertexSink& sink, Stragglers& st
   stragglers.count = 0;
 }
 
-void VirtualObjectSolver::computeInLanes(const VertexSink& sink, std::size_t begin, std::size_t end,
+void VirtualObjectSolver::computeInLanes(const VertexSink& sink, std::span<const std::uint32_t> vertices,
                                          Stragglers& stragglers) const {
-  for (std::size_t first = begin; first < end; first += kLanes) {
+  for (; !vertices.empty(); vertices = vertices.subspan(std::min(vertices.size(), std::size_t(kLanes)))) {
     LaneGroup group;
-    gatherGroup(sink, first, std::min(end - first, std::size_t(kLanes)), group);
+    gatherGroup(sink, vertices.first(std::min(vertices.size(), std::size_t(kLanes))), group);
     solveGroup(sink, group, stragglers);
   }
 }

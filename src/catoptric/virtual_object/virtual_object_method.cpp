@@ -36,7 +36,7 @@ VirtualObjectMethod::Prepared::Prepared(const scene::WorldGeometry& world, std::
       mesh(world, reflector, ReflectorMeshOptions{.flipped = flipped}),
       tessellation(world, reflector, mayBeInParts && !mesh.isConvex() ? forParts(options) : options),
       objects(tessellation.objects()),
-      runs(objects, VirtualObjectSolver::kRunLength),
+      runs(objects),
       triangleRuns(objects.positions, objects.indices),
       pass(objects),
       virtualPositions(objects.positions.size()),
@@ -49,7 +49,7 @@ void VirtualObjectMethod::Prepared::update(const scene::WorldGeometry& world) {
   movedParts.erase(std::unique(movedParts.begin(), movedParts.end()), movedParts.end());
   tessellation.update(world, movedParts);
   movedParts.clear();
-  runs = VertexRuns(objects, VirtualObjectSolver::kRunLength);
+  runs = VertexRuns(objects);
   triangleRuns = TriangleRuns(objects.positions, objects.indices);
   pass.objectsChanged();
   numbered.reset();
@@ -179,11 +179,11 @@ void VirtualObjectMethod::computeVirtualVertices(raster::FrameContext& frame, co
   const Solver solver = equipSolver(frame.scene.geometry(), *chain.curved, prepared);
   prepared.mayReflect.clear();
   if (solver != Solver::Explosion && prepared.solver->canReflect())  // the method as published has no culling
-    findReflectedRuns(prepared.runs, prepared.solver->reflectedCone(), chain.drawFromWorld,
-                      prepared.mayReflect);
+    prepared.runs.findReflected(prepared.solver->reflectedBeams(), chain.drawFromWorld, prepared.mayReflect);
   if (!wanted.empty()) {
-    prepared.mayReflect.resize(wanted.size(), 1);
-    for (std::size_t i = 0; i < wanted.size(); ++i) prepared.mayReflect[i] &= wanted[i];
+    prepared.mayReflect.resize(wanted.size(), VertexBits(~0u));
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      if (wanted[i] == 0) prepared.mayReflect[i] = 0;
   }
   prepared.solver->compute(solver, points, prepared.virtualPositions, prepared.kinds,
                            prepared.reflectionPoints, prepared.mayReflect, &prepared.places);

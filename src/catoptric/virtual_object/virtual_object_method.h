@@ -149,7 +149,7 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     std::vector<vec3> scenePoints;  ///< vertices mirrored by the planar links behind the curved one
     std::vector<vec3> virtualPositions, reflectionPoints;
     std::vector<VertexKind> kinds;
-    std::vector<std::uint8_t> mayReflect;  ///< by run
+    std::vector<VertexBits> mayReflect;    ///< by run
     std::unique_ptr<OnGpu> gpu;            ///< made when first needed
     std::unique_ptr<InParts> inParts;      ///< likewise
     dvec3 eye{0};                          ///< of the last frame
@@ -162,6 +162,7 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     Prepared* prepared = nullptr;  ///< of a curved one; null: a flat one
     const raster::TessellatedObjects* objects = nullptr;
     const TriangleRuns* runs = nullptr;  ///< of the objects
+    ReflectedBeams pictureBeam;          ///< of a flat one
     std::span<const vec3> virtualPositions;
     std::span<const std::uint32_t> triangleParts;  ///< by number
     std::vector<std::uint8_t> isNumbered;          ///< by part

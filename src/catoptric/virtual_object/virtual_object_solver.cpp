@@ -23,6 +23,7 @@
 #include "catoptric/virtual_object/virtual_object_solver.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 
@@ -50,7 +51,7 @@ std::uint32_t heavierTriangle(const SeedPixel& seed, double nearWeight) {
 
 VirtualObjectSolver::VirtualObjectSolver(const ReflectorMesh& mesh, const dvec3& eye, double farRadius,
                                          const SolverOptions& options)
-    : mesh_(&mesh), farRadius_(farRadius), options_(options) {
+    : mesh_(&mesh), farRadius_(farRadius), options_(options), patches_(mesh) {
   if (mesh.isConvex()) laneTriangles_ = makeLaneTriangles(mesh);
   for (ExplosionMap* map : {&nearMap_, &farMap_})
     map->ids = core::Image<std::uint32_t>(options.mapResolution, options.mapResolution, core::kNoId);
@@ -67,18 +68,18 @@ void VirtualObjectSolver::setEye(const dvec3& eye) {
   if (mesh_->triangles().empty() || !isFinite(eye)) return;
   canReflect_ = computeReflectedRays(*mesh_, eye, rays_) > 0;
   if (!canReflect_) return;
-  cone_ = makeReflectedCone(*mesh_, rays_);
   const double nearRadius = kNearSphere * mesh_->radius();
   const double farRadius = std::max(farRadius_, 2.0 * nearRadius);
   // Weights from relative distances d_near = (rho - r_n) / r_n, d_far = (r_f - rho) / r_f: linear in 1 / rho.
   inverseNear_ = 1.0 / nearRadius;
   layersPerInverse_ = 1.0 / (1.0 / farRadius - inverseNear_);
   const bool doServe = doMapsServe(eye);
-  core::parallelFor(doServe ? 1 : 3, 1, [&](std::size_t begin, std::size_t end) {
+  core::parallelFor(doServe ? 2 : 4, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (i == 0) fillHiddenMap(*mesh_, eye, scratch_[0], hiddenMap_);
-      if (i == 1) fillExplosionMap(*mesh_, eye, nearRadius, rays_, scratch_[1], nearMap_);
-      if (i == 2) fillExplosionMap(*mesh_, eye, farRadius, rays_, scratch_[2], farMap_);
+      if (i == 1) patches_.makeBeams(*mesh_, rays_, beams_);
+      if (i == 2) fillExplosionMap(*mesh_, eye, nearRadius, rays_, scratch_[1], nearMap_);
+      if (i == 3) fillExplosionMap(*mesh_, eye, farRadius, rays_, scratch_[2], farMap_);
     }
   });
   if (!doServe) {
@@ -234,14 +235,15 @@ VirtualVertex VirtualObjectSolver::solve(Solver solver, const dvec3& scenePoint)
 
 /// Vertices in blocks, so that the block's fetches from the seed map and from the triangles, which are
 /// scattered over more memory than the cache holds, are under way while others are computed.
-void VirtualObjectSolver::computeInOrder(const VertexSink& sink, std::size_t begin, std::size_t end) const {
+void VirtualObjectSolver::computeInOrder(const VertexSink& sink,
+                                         std::span<const std::uint32_t> vertices) const {
   constexpr std::size_t kBlock = 32;
   const SeedPixel* seeds[kBlock];
   double weights[kBlock] = {};
-  for (std::size_t first = begin; first < end; first += kBlock) {
-    const std::size_t count = std::min(kBlock, end - first);
+  for (std::size_t first = 0; first < vertices.size(); first += kBlock) {
+    const std::size_t count = std::min(kBlock, vertices.size() - first);
     for (std::size_t i = 0; i < count; ++i) {
-      const dvec3 point(sink.scenePoints[first + i]);
+      const dvec3 point(sink.scenePoints[vertices[first + i]]);
       seeds[i] = &seedMap_.at(isFinite(point) ? computeCoords(point, weights[i]) : dvec2(0));
       __builtin_prefetch(seeds[i]);
     }
@@ -251,8 +253,8 @@ void VirtualObjectSolver::computeInOrder(const VertexSink& sink, std::size_t beg
       for (std::size_t line = 0; line < sizeof(MirrorTriangle); line += 64) __builtin_prefetch(record + line);
     }
     for (std::size_t i = 0; i < count; ++i) {
-      const dvec3 point(sink.scenePoints[first + i]);
-      sink.write(first + i,
+      const dvec3 point(sink.scenePoints[vertices[first + i]]);
+      sink.write(vertices[first + i],
                  isFinite(point) ? solveRefined(point, *seeds[i], weights[i]).checked() : VirtualVertex{});
     }
   }
@@ -279,28 +281,34 @@ std::optional<ReflectionPoint> VirtualObjectSolver::findReflectionPoint(Solver s
 
 void VirtualObjectSolver::compute(Solver solver, std::span<const vec3> scenePoints,
                                   std::span<vec3> virtualPositions, std::span<VertexKind> kinds,
-                                  std::span<vec3> reflectionPoints, std::span<const std::uint8_t> mayReflect,
+                                  std::span<vec3> reflectionPoints, std::span<const VertexBits> mayReflect,
                                   LanePlaces* places) const {
   assert(virtualPositions.size() == scenePoints.size() && kinds.size() == scenePoints.size());
   assert(reflectionPoints.empty() || reflectionPoints.size() == scenePoints.size());
   if (places != nullptr) places->resize(scenePoints.size());
   const VertexSink sink{scenePoints, virtualPositions, kinds, reflectionPoints, places};
-  constexpr std::size_t kRunsPerTask = 16;
-  const std::size_t runs = (scenePoints.size() + kRunLength - 1) / kRunLength;
+  constexpr std::size_t kRunsPerTask = 16, kRun = VertexRuns::kLength;
+  const std::size_t runs = (scenePoints.size() + kRun - 1) / kRun;
   assert(mayReflect.empty() || mayReflect.size() == runs);
   core::parallelFor(runs, kRunsPerTask, [&](std::size_t firstRun, std::size_t endRun) {
     Stragglers stragglers;
-    for (std::size_t run = firstRun; run < endRun; ++run) {
-      const std::size_t begin = run * kRunLength, end = std::min(begin + kRunLength, scenePoints.size());
-      if (!mayReflect.empty() && mayReflect[run] == 0)
-        std::fill(kinds.begin() + std::ptrdiff_t(begin), kinds.begin() + std::ptrdiff_t(end),
-                  VertexKind::None);
-      else if (solver != Solver::Refined || !canReflect_)
-        for (std::size_t i = begin; i < end; ++i) sink.write(i, solve(solver, dvec3(scenePoints[i])));
+    for (std::size_t first = firstRun; first < endRun; first += kRunsPerTask) {
+      std::uint32_t wanted[kRunsPerTask * kRun];
+      std::size_t count = 0;
+      for (std::size_t run = first; run < std::min(first + kRunsPerTask, endRun); ++run) {
+        const std::size_t begin = run * kRun, length = std::min(kRun, scenePoints.size() - begin);
+        const unsigned all = (1u << length) - 1;
+        unsigned bits = mayReflect.empty() ? all : mayReflect[run] & all;
+        if (bits != all) std::fill_n(&kinds[begin], length, VertexKind::None);
+        for (; bits != 0; bits &= bits - 1) wanted[count++] = std::uint32_t(begin) + std::uint32_t(std::countr_zero(bits));
+      }
+      const std::span<const std::uint32_t> vertices(wanted, count);
+      if (solver != Solver::Refined || !canReflect_)
+        for (const std::uint32_t v : vertices) sink.write(v, solve(solver, dvec3(scenePoints[v])));
       else if (mesh_->isConvex())  // one root only: wherever a search begins, it ends there
-        computeInLanes(sink, begin, end, stragglers);
+        computeInLanes(sink, vertices, stragglers);
       else
-        computeInOrder(sink, begin, end);
+        computeInOrder(sink, vertices);
     }
     solveStragglers(sink, stragglers);
   });

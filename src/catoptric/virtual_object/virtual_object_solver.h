@@ -26,7 +26,7 @@
 #include "catoptric/virtual_object/explosion_map.h"
 #include "catoptric/virtual_object/lane_search.h"
 #include "catoptric/virtual_object/point_finder.h"
-#include "catoptric/virtual_object/reflected_cone.h"
+#include "catoptric/virtual_object/culling.h"
 #include "catoptric/virtual_object/reflection_point.h"
 #include "catoptric/virtual_object/reflector_mesh.h"
 
@@ -114,18 +114,15 @@ class VirtualObjectSolver {
   void useFinder(std::unique_ptr<PointFinder> finder);
   [[nodiscard]] bool hasFinder() const { return finder_ != nullptr; }
 
-  /// Vertices are solved in runs of this length, each by itself. Short ones, so that little that no ray comes
-  /// near is kept for what stands in the same run.
-  static constexpr std::size_t kRunLength = 16;
-
   /// All spans have equal length, except that `reflectionPoints` (J, wanted by selectVirtualTriangles()) may
   /// be empty. Parallel, and for convex mirrors in the processor's vectors; the result does not depend on the
-  /// number of threads. Positions of None are left as Q. Runs with a 0 in `mayReflect` (findReflectedRuns();
-  /// empty for all ones) become None, their positions are not touched. `places`: where the same vertices
-  /// were last seen in this mirror, of use when eye and vertices have moved little; they are updated.
+  /// number of threads. Positions of None are left as Q. Those without a bit in `mayReflect`
+  /// (VertexRuns::findReflected(); empty for all ones) become None, their positions are not touched. `places`: where
+  /// the same vertices were last seen in this mirror, of use when eye and vertices have moved little; they are
+  /// updated.
   void compute(Solver solver, std::span<const vec3> scenePoints, std::span<vec3> virtualPositions,
                std::span<VertexKind> kinds, std::span<vec3> reflectionPoints = {},
-               std::span<const std::uint8_t> mayReflect = {}, LanePlaces* places = nullptr) const;
+               std::span<const VertexBits> mayReflect = {}, LanePlaces* places = nullptr) const;
 
   /// One point, for tests and picking; nothing when the kind would be None.
   [[nodiscard]] std::optional<ReflectionPoint> findReflectionPoint(Solver solver,
@@ -138,7 +135,7 @@ class VirtualObjectSolver {
   [[nodiscard]] const ReflectedRays& reflectedRays() const { return rays_; }
 
   /// Holds every ray that leaves the mirror; of use where canReflect().
-  [[nodiscard]] const ReflectedCone& reflectedCone() const { return cone_; }
+  [[nodiscard]] const ReflectedBeams& reflectedBeams() const { return beams_; }
 
   [[nodiscard]] const ReflectorMesh& mesh() const { return *mesh_; }
   [[nodiscard]] const dvec3& eye() const { return eye_; }
@@ -162,10 +159,10 @@ class VirtualObjectSolver {
   [[nodiscard]] VirtualVertex placeSearched(const SearchResult& found) const;
   [[nodiscard]] VirtualVertex placeUnreflected(const SearchResult& end, const dvec3& scenePoint) const;
   [[nodiscard]] bool doMapsServe(const dvec3& eye) const;
-  void computeInOrder(const VertexSink& sink, std::size_t begin, std::size_t end) const;
-  void computeInLanes(const VertexSink& sink, std::size_t begin, std::size_t end,
+  void computeInOrder(const VertexSink& sink, std::span<const std::uint32_t> vertices) const;
+  void computeInLanes(const VertexSink& sink, std::span<const std::uint32_t> vertices,
                       Stragglers& stragglers) const;
-  static void gatherGroup(const VertexSink& sink, std::size_t first, std::size_t count, LaneGroup& group);
+  static void gatherGroup(const VertexSink& sink, std::span<const std::uint32_t> vertices, LaneGroup& group);
   void solveGroup(const VertexSink& sink, LaneGroup& group, Stragglers& stragglers) const;
   void solveStragglers(const VertexSink& sink, Stragglers& stragglers) const;
   void conclude(const VertexSink& sink, const LaneGroup& group) const;
@@ -187,7 +184,8 @@ class VirtualObjectSolver {
   ExplosionMap nearMap_, farMap_;
   HiddenMap hiddenMap_;
   SeedMap seedMap_;
-  ReflectedCone cone_;
+  MirrorPatches patches_;
+  ReflectedBeams beams_;
   ReflectedRays rays_;
   std::vector<LaneTriangle> laneTriangles_;
   std::vector<std::int32_t> surelyHiding_;

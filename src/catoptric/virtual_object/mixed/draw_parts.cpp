@@ -46,14 +46,14 @@ bool VirtualObjectMethod::hasCutOuts(const raster::SceneBuffers& scene) {
 bool VirtualObjectMethod::findPartVertices(raster::FrameContext& frame, const dvec3& drawEye,
                                            InParts::Part& part, Prepared& p) const {
   const auto start = std::chrono::steady_clock::now();
-  const auto findRuns = [&](bool canReflect, const auto& search) {
+  const auto findReflected = [&](bool canReflect, const auto& search) {
     p.mayReflect.clear();
-    if (canReflect) findReflectedRuns(p.runs, search.reflectedCone(), dmat4(1.0), p.mayReflect);
+    if (canReflect) p.runs.findReflected(search.reflectedBeams(), dmat4(1.0), p.mayReflect);
     return canReflect;
   };
   if (part.shape.bend == Bend::Convex) {
     part.setEye(*part.shape.mesh, frame.scene.geometry().bounds, drawEye, solverOptions());
-    if (!findRuns(part.solver->canReflect(), *part.solver)) return false;
+    if (!findReflected(part.solver->canReflect(), *part.solver)) return false;
     part.solver->compute(Solver::Refined, p.objects.positions, p.virtualPositions, p.kinds,
                          p.reflectionPoints, p.mayReflect, &part.places);
   } else {
@@ -61,7 +61,7 @@ bool VirtualObjectMethod::findPartVertices(raster::FrameContext& frame, const dv
       part.intervals = std::make_unique<IntervalSearch>(*part.shape.mesh, drawEye);
     else if (part.intervals->eye() != drawEye)
       part.intervals->setEye(drawEye);
-    if (!findRuns(part.intervals->canReflect(), *part.intervals)) return false;
+    if (!findReflected(part.intervals->canReflect(), *part.intervals)) return false;
     part.intervals->compute(p.objects.positions, p.mayReflect, part.isWorthIt, part.found);
   }
   const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;

@@ -29,7 +29,7 @@ void store(float (&to)[3][8], std::size_t lane, const Vector& v) {
 
 }  // namespace
 
-IntervalSearch::IntervalSearch(const ReflectorMesh& mesh, const dvec3& eye) : mesh_(&mesh) {
+IntervalSearch::IntervalSearch(const ReflectorMesh& mesh, const dvec3& eye) : mesh_(&mesh), patches_(mesh) {
   setEye(eye);
 }
 
@@ -40,7 +40,7 @@ void IntervalSearch::setEye(const dvec3& eye) {
   const double x = eye.x + eye.y + eye.z;
   if (mesh_->triangles().empty() || !std::isfinite(x)) return;
   if (computeReflectedRays(*mesh_, eye, rays_) == 0) return;
-  cone_ = makeReflectedCone(*mesh_, rays_);
+  patches_.makeBeams(*mesh_, rays_, beams_);
   std::vector<std::uint32_t> front;
   for (std::uint32_t i = 0; i < mesh_->ordinaryCount(); ++i) {
     const MirrorTriangle& t = mesh_->triangles()[i];
@@ -97,7 +97,7 @@ std::optional<dvec3> IntervalSearch::find(const dvec3& scenePoint, std::size_t i
   return vertex.kind == VertexKind::Reflected ? std::optional(dvec3(vertex.reflectionPoint)) : std::nullopt;
 }
 
-void IntervalSearch::compute(std::span<const vec3> scenePoints, std::span<const std::uint8_t> mayReflect,
+void IntervalSearch::compute(std::span<const vec3> scenePoints, std::span<const VertexBits> mayReflect,
                              const std::array<bool, kIntervals>& wanted,
                              std::array<IntervalVertices, kIntervals>& found) const {
   for (std::size_t k = 0; k < kIntervals; ++k) {
@@ -107,12 +107,12 @@ void IntervalSearch::compute(std::span<const vec3> scenePoints, std::span<const 
     found[k].triangles.resize(scenePoints.size());
     found[k].kinds.assign(scenePoints.size(), VertexKind::None);
   }
-  constexpr std::size_t kRun = VirtualObjectSolver::kRunLength;
+  constexpr std::size_t kRun = VertexRuns::kLength;
   const float farthest = float(kFarthest * kFarthest * mesh_->radius() * mesh_->radius());
   core::parallelFor((scenePoints.size() + kRun - 1) / kRun, 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t run = first; run < last; ++run) {
-      if (!mayReflect.empty() && mayReflect[run] == 0) continue;
       for (std::size_t i = run * kRun; i < std::min(scenePoints.size(), (run + 1) * kRun); ++i) {
+        if (!mayReflect.empty() && (mayReflect[run] >> i % kRun & 1u) == 0) continue;
         const dvec3 point(scenePoints[i]);
         if (!std::isfinite(point.x + point.y + point.z)) continue;
         std::array<Start, kIntervals> starts;

@@ -29,7 +29,7 @@
 
 #include "catoptric/raster/virtual_triangles.h"
 #include "catoptric/virtual_object/mixed/focal_distances.h"
-#include "catoptric/virtual_object/reflected_cone.h"
+#include "catoptric/virtual_object/culling.h"
 
 namespace catoptric::virtual_object {
 
@@ -50,12 +50,12 @@ class IntervalSearch {
   /// False when the eye cannot see any front of the part.
   [[nodiscard]] bool canReflect() const { return !triangles_.empty(); }
   /// Holds every ray that leaves the part; of use where canReflect().
-  [[nodiscard]] const ReflectedCone& reflectedCone() const { return cone_; }
+  [[nodiscard]] const ReflectedBeams& reflectedBeams() const { return beams_; }
 
-  /// Points in runs of VirtualObjectSolver::kRunLength; those with a 0 in `mayReflect` (empty for all ones)
+  /// Those without a bit in `mayReflect` (VertexRuns::findReflected(); empty for all ones)
   /// become None. Of intervals that are not wanted nothing is written. Parallel; the result does not depend
   /// on the number of threads.
-  void compute(std::span<const vec3> scenePoints, std::span<const std::uint8_t> mayReflect,
+  void compute(std::span<const vec3> scenePoints, std::span<const VertexBits> mayReflect,
                const std::array<bool, kIntervals>& wanted,
                std::array<IntervalVertices, kIntervals>& found) const;
 
@@ -89,7 +89,8 @@ class IntervalSearch {
   const ReflectorMesh* mesh_;
   dvec3 eye_{0};
   ReflectedRays rays_;
-  ReflectedCone cone_;
+  MirrorPatches patches_;
+  ReflectedBeams beams_;
   std::vector<RayGroup> groups_;
   std::vector<std::uint32_t> triangles_;  ///< of the rays
 };

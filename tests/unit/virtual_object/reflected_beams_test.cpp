@@ -193,7 +193,7 @@ TEST(VertexRuns, LeftOutRunsChangeNoOther) {
   const ReflectorMesh mesh = meshOf(makeCap(2, 0.4, 1));
   const VirtualObjectSolver solver(mesh, dvec3(0.5, 0.2, 4), 20);
   std::mt19937 random(5);
-  constexpr std::size_t kRun = VirtualObjectSolver::kRunLength;
+  constexpr std::size_t kRun = VertexRuns::kLength;
   std::vector<vec3> points(3 * kRun + kRun / 2 + 1);
   for (vec3& p : points) p = vec3(mesh.centre() + 5.0 * randomDirection(random));
   std::vector<vec3> all(points.size()), some(points.size());
