@@ -126,7 +126,8 @@ void VirtualObjectSolver::solveHard(const VertexSink& sink, std::size_t i) const
   }
   sink.write(i, vertex->checked());
   if (places == nullptr) return;
-  places->triangles[i] = vertex->kind == VertexKind::Reflected ? std::int32_t(vertex->at.triangle) : -1;
+  const bool isFound = vertex->kind == VertexKind::Reflected || vertex->kind == VertexKind::PastBoundary;
+  places->triangles[i] = isFound ? std::int32_t(vertex->at.triangle) : -1;
   places->u[i] = float(vertex->at.u), places->v[i] = float(vertex->at.v);
 }
 
