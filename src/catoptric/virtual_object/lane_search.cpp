@@ -165,11 +165,13 @@ struct SearchLanes {
     for (;;) {
       if (toBits(isSeeded) != 0) restart(view, isSeeded, local, s);
       const Law law = evaluate(s.t, s.at.u, s.at.v, eye, local);
-      isSeeded = mayBeStale & ~(law.squaredSine < kStaleSine * kStaleSine);
+      const EightInts isMet = law.distance <= view.contact;
+      isSeeded = mayBeStale & ~isMet & ~(law.squaredSine < kStaleSine * kStaleSine);
       mayBeStale = EightInts{};
       if (toBits(isSeeded) != 0) continue;
       s.steps -= s.active;
       const EightInts isLast = law.squaredSine < kAlmostSine * kAlmostSine;
+      if (toBits(s.active & isMet) != 0) meet(isMet, eye, s);
       giveUp(view, law, isLast, s);
       step(view, law, isLast, s);
       s.found |= s.active & isLast;
@@ -177,6 +179,15 @@ struct SearchLanes {
       if (std::popcount(toBits(s.active)) <= fewest) break;
     }
     finish(view, s, local, eye, group);
+  }
+
+  /// Points on the mirror: the law has no meaning there, and they are seen where they are.
+  CATOPTRIC_INLINE static void meet(const EightInts& isMet, const LaneVector& eye, Search& s) {
+    const LaneVector position = s.t.position0 + s.at.u * s.t.edge1 + s.at.v * s.t.edge2,
+                     normal = s.t.normal0 + s.at.u * s.t.normal1 + s.at.v * s.t.normal2;
+    const EightInts facesEye = dot(normal, eye - position) > 0.0f;
+    s.found |= s.active & isMet & facesEye, s.lost |= s.active & isMet & ~facesEye;
+    s.active &= ~isMet;
   }
 
   /// Steps 4 and 5.

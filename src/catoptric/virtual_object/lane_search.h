@@ -63,6 +63,7 @@ struct LaneView {
   float hiddenNearest = 0, hiddenSquaredCosine = 2;
   float inverseNear = 0, layersPerInverse = 0;
   float touching = 0;     ///< nearer points need doubles
+  float contact = 0;      ///< unless they are this near: then they are on the mirror
   float longestStep = 0;  ///< on the mirror
 };
 

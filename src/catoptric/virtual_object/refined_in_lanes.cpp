@@ -17,7 +17,7 @@
 namespace catoptric::virtual_object {
 namespace {
 
-constexpr double kTouching = 4e-3;  // of the mesh's radius: nearer points need doubles
+constexpr double kTouching = 4e-3, kContact = 1e-5;  // of the mesh's radius
 
 constexpr int kStragglers = 3;  // of eight lanes: so few are not worth a step of all
 
@@ -55,6 +55,7 @@ void VirtualObjectSolver::prepareLanes() {
   view.hiddenSquaredCosine = float(hiddenMap_.squaredCosine);
   view.inverseNear = float(inverseNear_), view.layersPerInverse = float(layersPerInverse_);
   view.touching = float(kTouching * mesh_->radius());
+  view.contact = float(kContact * mesh_->radius());
   view.longestStep = float(options_.longestStep * mesh_->radius());
 }
 
