@@ -18,7 +18,8 @@ using core::toBits;
 constexpr std::size_t kTriangleRun = 32, kLanes = BoxLanes::kLanes, kRun = VertexRuns::kLength;
 constexpr unsigned kAll = 0xff;
 constexpr float kRounding = 1.000001f;
-constexpr std::size_t kSparse = 4;  // planes all round, every other one: most that are missed lie behind these
+constexpr std::size_t kSparse =
+    4;  // planes all round, every other one: most that are missed lie behind these
 static_assert(ReflectedBeams::kPlanes == 2 * kSparse + 1);
 
 /// How deep the innermost and the outermost corner of boxes lie below the nearest plane.
@@ -39,8 +40,7 @@ CATOPTRIC_INLINE Boxes load(const BoxLanes& lanes) {
 
 CATOPTRIC_INLINE void dip(const BeamPlane& plane, const Boxes& boxes, Depths& depths) {
   const vec3& n = plane.normal;
-  const Eight centre =
-      n.x * boxes.centre[0] + n.y * boxes.centre[1] + n.z * boxes.centre[2] - plane.distance;
+  const Eight centre = n.x * boxes.centre[0] + n.y * boxes.centre[1] + n.z * boxes.centre[2] - plane.distance;
   const Eight half =
       std::abs(n.x) * boxes.half[0] + std::abs(n.y) * boxes.half[1] + std::abs(n.z) * boxes.half[2];
   const Eight most = centre + half, least = centre - half;
@@ -77,11 +77,12 @@ struct MeetBoxes {
   static CATOPTRIC_INLINE void run(const ReflectedBeams& beams, const std::uint32_t& among,
                                    const BoxLanes& boxes, unsigned& met) {
     EightInts found{};
-    forEachMet(beams, among, boxes,
-               [&](unsigned, const EightInts& may, const EightInts&) __attribute__((always_inline)) {
-                 found |= may;
-                 return toBits(found) != kAll;
-               });
+    forEachMet(
+        beams, among,
+        boxes, [&](unsigned, const EightInts& may, const EightInts&) __attribute__((always_inline)) {
+          found |= may;
+          return toBits(found) != kAll;
+        });
     met = toBits(found);
   }
 };
@@ -91,13 +92,13 @@ struct FindReflected {
   static CATOPTRIC_INLINE void run(const ReflectedBeams& beams, const BoxLanes& runBoxes,
                                    const BoxLanes* const& vertexBoxes, VertexBits (&found)[kLanes]) {
     EightInts near{}, wholly{};  // bits for the beams that may meet a run
-    forEachMet(beams, allOf(beams), runBoxes,
-               [&](unsigned n, const EightInts& may, const EightInts& whollyHere)
-                   __attribute__((always_inline)) {
-                     near |= may & std::int32_t(1u << n);
-                     wholly |= may & whollyHere;
-                     return true;
-                   });
+    forEachMet(
+        beams, allOf(beams), runBoxes,
+        [&](unsigned n, const EightInts& may, const EightInts& whollyHere) __attribute__((always_inline)) {
+          near |= may & std::int32_t(1u << n);
+          wholly |= may & whollyHere;
+          return true;
+        });
     for (std::size_t run = 0; run < kLanes; ++run) {
       found[run] = VertexBits(wholly[int(run)]);
       if (near[int(run)] == 0 || wholly[int(run)] != 0) continue;

@@ -5,8 +5,8 @@
 //   2. For each eye, the mirror's beams (reflected_beams.h). A box that lies on the outer side of a plane of
 //      every beam meets no ray: runs first, then, where a run is neither outside of all beams nor wholly
 //      within one, each vertex.
-// Nothing is lost: no triangle that loses a corner could have been seen. A whole ball reflects all around, and
-// hardly anything is left out. Cost: a dozen products for each plane and box, eight boxes side by side.
+// Nothing is lost: no triangle that loses a corner could have been seen. A whole ball reflects all around,
+// and hardly anything is left out. Cost: a dozen products for each plane and box, eight boxes side by side.
 #pragma once
 
 #include <cstdint>

@@ -26,7 +26,7 @@ constexpr auto kShorter = float(search_limits::kShorter);
 constexpr auto kFarOutside = float(search_limits::kFarOutside);
 constexpr int kMostShortened = 4;   // in a row; then onwards all the same
 constexpr int kMaxSteps = 12;       // more means that the start was bad
-constexpr int kFewSteps = 5;        // then a search that is on the back stays there
+constexpr int kStepsBehind = 5;     // then a search that is on the back stays there
 constexpr float kOutside = 1e-5f;   // barycentric slack
 constexpr int kMostCrossings = 16;  // of edges in one step; the next one goes on
 
@@ -196,7 +196,7 @@ struct SearchLanes {
     const EightInts isFar = outsideBy(s.at.u, s.at.v) > kFarOutside;
     s.stepsOutside -= s.active & isFar;
     const EightInts isStraight = law.squaredHalf < kStraight * kStraight;
-    const EightInts isBehind = (law.facing < 0.0f) & (isLast | (s.steps > kFewSteps));
+    const EightInts isBehind = (law.facing < 0.0f) & (isLast | (s.steps > kStepsBehind));
     const EightInts isAstray = ~isLast & isFar & (s.stepsOutside > search_limits::kMostStepsOutside);
     const EightInts isLost = s.active & (isStraight | isBehind | isAstray);
     s.lost |= isLost;

@@ -9,10 +9,12 @@
 //      step and goes on; a step that made it worse is taken back and a shorter one taken.
 //   3. Steps that leave their triangle walk over the mesh, lane by lane (mesh_walk.h); past the end of an
 //      open mirror the last triangle is extrapolated.
-//   4. Three ends say that nothing is reflected: a root on the mirror's back; the place where the ray to the
-//      point goes straight into the mirror, where h vanishes; too many steps far outside.
+//   4. Three ends say that nothing is reflected: the mirror's back, at a root or for long; the place where
+//   the
+//      ray to the point goes straight into the mirror, where h vanishes; too many steps far outside.
 //   5. What is not easy - nearly touching the mirror, grazing, no quick convergence - is handed back for the
-//      double search. So what is found, and for which vertices, is what that one finds.
+//      double search. So what is found, and for which vertices, is what that one finds. A point that lies on
+//      the mirror, to within what floats tell, is seen where it is: the law has no meaning there.
 // The few lanes that take longer than the others of their group can be moved to another one and go on there.
 //
 // Frame inside: world axes, origin at the mirror's centre. Loss against the double search: less than 0.05 px
@@ -67,19 +69,13 @@ struct LaneView {
   float longestStep = 0;  ///< on the mirror
 };
 
-/// Where each of many vertices was last seen in a mirror. A place that is not on the mirror at all is as good
-/// as none; one that is wrong costs an evaluation.
-struct LanePlaces {
-  std::vector<std::int32_t> triangles;  ///< -1: nowhere
-  std::vector<float> u, v;
-
-  /// Forgets all unless there are `count` already.
-  void resize(std::size_t count) {
-    if (triangles.size() == count) return;
-    triangles.assign(count, -1);
-    u.assign(count, 0.0f), v.assign(count, 0.0f);
-  }
+/// Where a vertex was last seen in a mirror. A place that is not on the mirror at all is as good as none; one
+/// that is wrong costs an evaluation.
+struct LanePlace {
+  std::int32_t triangle = -1;  ///< -1: nowhere
+  float u = 0, v = 0;
 };
+using LanePlaces = std::vector<LanePlace>;
 
 /// How far a search has come: the last step, from where, and how good it was there.
 struct LaneState {
@@ -93,7 +89,7 @@ struct alignas(64) LaneGroup {
   unsigned wanted = 0;            ///< in: to be searched
   std::size_t vertex[kLanes];     ///< the caller's
   LaneFloats point[3];            ///< in: Q, world
-  std::int32_t triangle[kLanes];  ///< in: as LanePlaces; out: where the search stands
+  std::int32_t triangle[kLanes];  ///< in: as LanePlace; out: where the search stands
   LaneFloats u = {}, v = {};
   bool hasBegun = false;  ///< in: searchLanes() left it before it was ready
   LaneState state;        ///< if so

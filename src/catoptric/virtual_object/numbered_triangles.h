@@ -25,8 +25,8 @@
 
 #include "catoptric/raster/tessellation.h"
 #include "catoptric/raster/virtual_triangles.h"
-#include "catoptric/virtual_object/hit_shading.h"
 #include "catoptric/virtual_object/culling.h"
+#include "catoptric/virtual_object/hit_shading.h"
 
 namespace catoptric::virtual_object {
 

@@ -69,14 +69,8 @@ void VirtualObjectSolver::gatherGroup(const VertexSink& sink, std::span<const st
     const vec3& point = sink.scenePoints[i];
     for (int k = 0; k < 3; ++k) group.point[k][lane] = point[k];
     sum += point.x + point.y + point.z;
-    group.triangle[lane] = -1;
-  }
-  if (sink.places != nullptr) {
-    const LanePlaces& places = *sink.places;
-    for (std::size_t lane = 0; lane < vertices.size(); ++lane) {
-      const std::size_t i = vertices[lane];
-      group.triangle[lane] = places.triangles[i], group.u[lane] = places.u[i], group.v[lane] = places.v[i];
-    }
+    const LanePlace place = sink.places != nullptr ? (*sink.places)[i] : LanePlace{};
+    group.triangle[lane] = place.triangle, group.u[lane] = place.u, group.v[lane] = place.v;
   }
   group.wanted = (1u << vertices.size()) - 1;
   if (std::isfinite(sum)) return;
@@ -99,10 +93,9 @@ void VirtualObjectSolver::conclude(const VertexSink& sink, const LaneGroup& grou
   });
   if (sink.places != nullptr)
     forEachLane(group.found | group.lost, [&](std::size_t lane) {
-      const std::size_t i = group.vertex[lane];
       const bool isFound = (group.found >> lane & 1u) != 0;
-      sink.places->triangles[i] = isFound ? group.triangle[lane] : -1;
-      sink.places->u[i] = group.u[lane], sink.places->v[i] = group.v[lane];
+      (*sink.places)[group.vertex[lane]] = {isFound ? group.triangle[lane] : -1, group.u[lane],
+                                            group.v[lane]};
     });
   forEachLane(group.lost, [&](std::size_t lane) {
     const dvec3 point(sink.scenePoints[group.vertex[lane]]);
@@ -115,21 +108,19 @@ void VirtualObjectSolver::conclude(const VertexSink& sink, const LaneGroup& grou
 
 void VirtualObjectSolver::solveHard(const VertexSink& sink, std::size_t i) const {
   const dvec3 point(sink.scenePoints[i]);
-  LanePlaces* places = sink.places;
+  LanePlace* place = sink.places != nullptr ? &(*sink.places)[i] : nullptr;
   std::optional<VirtualVertex> vertex;
-  if (places != nullptr && places->triangles[i] >= 0 &&
-      std::size_t(places->triangles[i]) < laneTriangles_.size())
-    vertex = solveFrom({std::uint32_t(places->triangles[i]), places->u[i], places->v[i]}, point);
+  if (place != nullptr && place->triangle >= 0 && std::size_t(place->triangle) < laneTriangles_.size())
+    vertex = solveFrom({std::uint32_t(place->triangle), place->u, place->v}, point);
   if (!vertex) {
     double nearWeight;
     const dvec2 coords = computeCoords(point, nearWeight);
     vertex = solveRefined(point, seedMap_.at(coords), nearWeight);
   }
   sink.write(i, vertex->checked());
-  if (places == nullptr) return;
+  if (place == nullptr) return;
   const bool isFound = vertex->kind == VertexKind::Reflected || vertex->kind == VertexKind::PastBoundary;
-  places->triangles[i] = isFound ? std::int32_t(vertex->at.triangle) : -1;
-  places->u[i] = float(vertex->at.u), places->v[i] = float(vertex->at.v);
+  *place = {isFound ? std::int32_t(vertex->at.triangle) : -1, float(vertex->at.u), float(vertex->at.v)};
 }
 
 void VirtualObjectSolver::solveGroup(const VertexSink& sink, LaneGroup& group, Stragglers& stragglers) const {

@@ -8,37 +8,32 @@
 namespace catoptric::virtual_object {
 namespace {
 
-constexpr float kWidest = 0.6f;  // of the box around a patch's normals
+constexpr double kWidest = 0.6;  // of the box around a patch's normals
 constexpr int kNearlyAll = 22;   // of 26 directions
 constexpr float kWide = 0.1f;    // cosine to the axis below which no plane is worth while
-// Within a triangle normals are interpolated: its rays stay between those of the corners, but for terms of the
-// second order.
+// Within a triangle normals are interpolated: its rays stay between those of the corners, but for terms of
+// the second order.
 constexpr float kBetween = 0.25f, kLeast = 1e-3f;  // of the longest chord; radians
 constexpr float kSlack = 1e-4f;                    // of the mirror's radius
-constexpr float kRounding = 1e-6f;                 // of the distance from the world's origin
+constexpr double kRounding = 1e-6;                 // of the distance from the world's origin
 constexpr std::size_t kMostPatches = ReflectedBeams::kMost, kFewestTriangles = 16;
 
-struct NormalBox {
-  vec3 lower{2}, upper{-2};
-  [[nodiscard]] int longest() const {
-    const vec3 size = upper - lower;
-    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  }
-  [[nodiscard]] float width() const { return (upper - lower)[longest()]; }
-};
-
+/// A range of the triangles, along which axis their normals differ most, and by how much.
 struct Patch {
   std::size_t first, end;
-  NormalBox box;
+  int axis = 0;
+  double width = 0;
 };
 
-Patch makePatch(std::span<const std::uint32_t> triangles, std::span<const vec3> normals, std::size_t first,
+Patch makePatch(std::span<const std::uint32_t> triangles, std::span<const dvec3> normals, std::size_t first,
                 std::size_t end) {
-  Patch patch{first, end, {}};
-  for (std::size_t i = first; i < end; ++i) {
-    patch.box.lower = glm::min(patch.box.lower, normals[triangles[i]]);
-    patch.box.upper = glm::max(patch.box.upper, normals[triangles[i]]);
-  }
+  core::Box box;
+  for (std::size_t i = first; i < end; ++i) box.add(normals[triangles[i]]);
+  const dvec3 size = box.upper - box.lower;
+  Patch patch{first, end};
+  if (end - first < kFewestTriangles) return patch;  // not to be cut
+  for (int k = 0; k < 3; ++k)
+    if (size[k] > patch.width) patch.axis = k, patch.width = size[k];
   return patch;
 }
 
@@ -49,26 +44,23 @@ MirrorPatches::MirrorPatches(const ReflectorMesh& mesh)
       gatheredFor_(mesh.positions().size()),
       centre_(mesh.centre()),
       radius_(mesh.radius()),
-      slack_(kSlack * float(mesh.radius()) + kRounding * float(glm::length(mesh.centre()))) {
-  std::vector<vec3> normals(triangles_.size());
+      slack_(kSlack * float(mesh.radius()) + float(kRounding * glm::length(mesh.centre()))) {
+  std::vector<dvec3> normals(triangles_.size());
   for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
     triangles_[t] = t;
-    normals[t] = vec3(glm::normalize(mesh.triangles()[t].normal(1.0 / 3, 1.0 / 3)));
+    normals[t] = glm::normalize(mesh.triangles()[t].normal(1.0 / 3, 1.0 / 3));
   }
   std::vector<Patch> patches;
   if (!triangles_.empty()) patches.push_back(makePatch(triangles_, normals, 0, triangles_.size()));
-  const auto width = [](const Patch& patch) {
-    return patch.end - patch.first < kFewestTriangles ? 0.0f : patch.box.width();
-  };
   while (!patches.empty() && patches.size() < kMostPatches) {
-    const auto widest = std::max_element(
-        patches.begin(), patches.end(), [&](const Patch& a, const Patch& b) { return width(a) < width(b); });
-    if (!(width(*widest) > kWidest)) break;
-    const auto [first, end, box] = *widest;
+    const auto widest = std::max_element(patches.begin(), patches.end(),
+                                         [](const Patch& a, const Patch& b) { return a.width < b.width; });
+    if (!(widest->width > kWidest)) break;
+    const auto [first, end, axis, width] = *widest;
     const std::size_t middle = (first + end) / 2;
     const auto at = [&](std::size_t i) { return triangles_.begin() + std::ptrdiff_t(i); };
-    std::nth_element(at(first), at(middle), at(end), [&, axis = box.longest()](auto a, auto b) {
-      return normals[a][axis] < normals[b][axis];
+    std::nth_element(at(first), at(middle), at(end), [&, k = axis](std::uint32_t a, std::uint32_t b) {
+      return normals[a][k] < normals[b][k];
     });
     *widest = makePatch(triangles_, normals, first, middle);
     patches.push_back(makePatch(triangles_, normals, middle, end));
@@ -166,7 +158,7 @@ ReflectedBeams makePictureBeam(const dmat4& clipFromWorld, const dvec3& eye, con
   ReflectedBeams picture{{{}}};
   const auto through = [&](const dvec3& inwards) {
     const dvec3 normal = glm::normalize(inwards);
-    return BeamPlane{vec3(normal), float(glm::dot(normal, eye))};
+    return BeamPlane{vec3(normal), float(glm::dot(normal, eye) - kRounding * glm::length(eye))};
   };
   for (int k = 0; k < 2; ++k) {
     picture.beams[0][std::size_t(k)] = through(rows[k] - lower[k] * rows[3]);

@@ -52,8 +52,8 @@ class MirrorPatches {
   [[nodiscard]] ReflectedBeams::Beam makeBeam() const;
   [[nodiscard]] bool isAllAround(const ReflectedBeams& beams) const;
 
-  std::vector<std::uint32_t> triangles_;  ///< in the order of the patches
-  std::vector<std::size_t> ends_;         ///< of the patches
+  std::vector<std::uint32_t> triangles_;    ///< in the order of the patches
+  std::vector<std::size_t> ends_;           ///< of the patches
   std::vector<std::uint32_t> gatheredFor_;  ///< by vertex: the last patch
   std::vector<float> origins_[3], directions_[3];
   vec3 sum_{0};        ///< of the directions

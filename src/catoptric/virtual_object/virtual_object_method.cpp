@@ -88,8 +88,8 @@ void VirtualObjectMethod::prepare(raster::FrameContext& frame) {
   last_.clear();
 }
 
-/// The chord whose sag is twice the error that is allowed, or a pixel, where the mirror covers the pixels that
-/// it was prepared for.
+/// The chord whose sag is twice the error that is allowed, or a pixel, where the mirror covers the pixels
+/// that it was prepared for.
 raster::LongestChords VirtualObjectMethod::findLongestChords(const Prepared& p) {
   const double sagPx = std::max(2.0 * p.maxErrorPx, 1.0);
   const auto longest = float(p.mesh.bodyRadius() * std::sqrt(16.0 * sagPx / p.sizePx));

@@ -149,11 +149,11 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
     std::vector<vec3> scenePoints;  ///< vertices mirrored by the planar links behind the curved one
     std::vector<vec3> virtualPositions, reflectionPoints;
     std::vector<VertexKind> kinds;
-    std::vector<VertexBits> mayReflect;    ///< by run
-    std::unique_ptr<OnGpu> gpu;            ///< made when first needed
-    std::unique_ptr<InParts> inParts;      ///< likewise
-    dvec3 eye{0};                          ///< of the last frame
-    bool isFoundOnCpu = false;             ///< the arrays above are those of the solver's eye
+    std::vector<VertexBits> mayReflect;  ///< by run
+    std::unique_ptr<OnGpu> gpu;          ///< made when first needed
+    std::unique_ptr<InParts> inParts;    ///< likewise
+    dvec3 eye{0};                        ///< of the last frame
+    bool isFoundOnCpu = false;           ///< the arrays above are those of the solver's eye
   };
   /// A mirror that is drawn as numbers, while it is drawn; keeps its memory.
   struct NumberedMirror {

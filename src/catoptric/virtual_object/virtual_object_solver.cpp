@@ -285,7 +285,7 @@ void VirtualObjectSolver::compute(Solver solver, std::span<const vec3> scenePoin
                                   LanePlaces* places) const {
   assert(virtualPositions.size() == scenePoints.size() && kinds.size() == scenePoints.size());
   assert(reflectionPoints.empty() || reflectionPoints.size() == scenePoints.size());
-  if (places != nullptr) places->resize(scenePoints.size());
+  if (places != nullptr && places->size() != scenePoints.size()) places->assign(scenePoints.size(), {});
   const VertexSink sink{scenePoints, virtualPositions, kinds, reflectionPoints, places};
   constexpr std::size_t kRunsPerTask = 16, kRun = VertexRuns::kLength;
   const std::size_t runs = (scenePoints.size() + kRun - 1) / kRun;
@@ -300,7 +300,8 @@ void VirtualObjectSolver::compute(Solver solver, std::span<const vec3> scenePoin
         const unsigned all = (1u << length) - 1;
         unsigned bits = mayReflect.empty() ? all : mayReflect[run] & all;
         if (bits != all) std::fill_n(&kinds[begin], length, VertexKind::None);
-        for (; bits != 0; bits &= bits - 1) wanted[count++] = std::uint32_t(begin) + std::uint32_t(std::countr_zero(bits));
+        for (; bits != 0; bits &= bits - 1)
+          wanted[count++] = std::uint32_t(begin) + std::uint32_t(std::countr_zero(bits));
       }
       const std::span<const std::uint32_t> vertices(wanted, count);
       if (solver != Solver::Refined || !canReflect_)

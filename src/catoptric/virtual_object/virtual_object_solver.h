@@ -23,10 +23,10 @@
 #include "catoptric/core/image.h"
 #include "catoptric/core/math.h"
 #include "catoptric/raster/virtual_triangles.h"
+#include "catoptric/virtual_object/culling.h"
 #include "catoptric/virtual_object/explosion_map.h"
 #include "catoptric/virtual_object/lane_search.h"
 #include "catoptric/virtual_object/point_finder.h"
-#include "catoptric/virtual_object/culling.h"
 #include "catoptric/virtual_object/reflection_point.h"
 #include "catoptric/virtual_object/reflector_mesh.h"
 
@@ -117,9 +117,9 @@ class VirtualObjectSolver {
   /// All spans have equal length, except that `reflectionPoints` (J, wanted by selectVirtualTriangles()) may
   /// be empty. Parallel, and for convex mirrors in the processor's vectors; the result does not depend on the
   /// number of threads. Positions of None are left as Q. Those without a bit in `mayReflect`
-  /// (VertexRuns::findReflected(); empty for all ones) become None, their positions are not touched. `places`: where
-  /// the same vertices were last seen in this mirror, of use when eye and vertices have moved little; they are
-  /// updated.
+  /// (VertexRuns::findReflected(); empty for all ones) become None, their positions are not touched.
+  /// `places`: where the same vertices were last seen in this mirror, of use when eye and vertices have moved
+  /// little; they are updated.
   void compute(Solver solver, std::span<const vec3> scenePoints, std::span<vec3> virtualPositions,
                std::span<VertexKind> kinds, std::span<vec3> reflectionPoints = {},
                std::span<const VertexBits> mayReflect = {}, LanePlaces* places = nullptr) const;

@@ -184,7 +184,7 @@ TEST(Lanes, whereTheyBeginDecidesNothing) {
   LanePlaces places;
   solver.compute(Solver::Refined, points, placed, kinds, {}, {}, &places);
   const std::size_t known = std::size_t(
-      std::count_if(places.triangles.begin(), places.triangles.end(), [](std::int32_t t) { return t >= 0; }));
+      std::count_if(places.begin(), places.end(), [](const LanePlace& p) { return p.triangle >= 0; }));
   EXPECT_GT(known, points.size() / 3);
   for (const dvec3 eye :
        {dvec3(0.41, 0.9, 2.6), dvec3(0.5, 0.95, 2.5), dvec3(0.4, 1.6, 2.2), dvec3(-2.6, 0.4, -0.4)}) {
@@ -205,7 +205,7 @@ TEST(Lanes, whereTheyBeginDecidesNothing) {
     EXPECT_EQ(otherwiseReflected, 0);
     EXPECT_LE(otherKind, 15);  // far past the open edge: a doubly virtual place, or given up
   }
-  places.triangles.assign(points.size(), 1 << 30);  // of a mirror that had more triangles
+  places.assign(points.size(), {1 << 30});  // of a mirror that had more triangles
   solver.compute(Solver::Refined, points, placed, kinds, {}, {}, &places);
   EXPECT_EQ(kinds, kindsAnew);
 }
@@ -225,7 +225,7 @@ TEST(Lanes, whatNearlyTouchesBeginsWhereItWasFoundToo) {
   LanePlaces places;
   solver.compute(Solver::Refined, points, placed, kinds, {}, {}, &places);
   for (std::size_t i = 0; i < points.size(); ++i)
-    EXPECT_EQ(places.triangles[i] >= 0, kinds[i] == VertexKind::Reflected);
+    EXPECT_EQ(places[i].triangle >= 0, kinds[i] == VertexKind::Reflected);
   for (const dvec3 eye : {dvec3(0.41, 0.9, 2.6), dvec3(1.4, 0.6, 2.2), dvec3(-2.6, 0.4, -0.4)}) {
     solver.setEye(eye);
     solver.compute(Solver::Refined, points, placed, kinds, {}, {}, &places);

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Culling of what a mirror cannot reflect: nothing is lost. The twin has a cone that is too narrow, and must
+// Culling of what a mirror cannot reflect: nothing is lost. The twin has beams that are too narrow, and must
 // lose some.
-#include "catoptric/virtual_object/reflected_cone.h"
+#include "catoptric/virtual_object/reflected_beams.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 #include "catoptric/geometry/shapes.h"
+#include "catoptric/virtual_object/culling.h"
 #include "catoptric/virtual_object/virtual_object_solver.h"
 #include "reflection_harness.h"
 #include "solver_test_support.h"
@@ -26,15 +28,26 @@ geometry::Mesh makeCap(double radius, double halfWidth, float sign, double halfH
   return mesh;
 }
 
+core::Box boxOf(std::initializer_list<dvec3> points) {
+  core::Box box;
+  for (const dvec3& point : points) box.add(point);
+  return box;
+}
+
+ReflectedBeams beamsOf(const ReflectorMesh& mesh, const dvec3& eye) {
+  return VirtualObjectSolver(mesh, eye, 20).reflectedBeams();
+}
+
 struct Counts {
   int reflected = 0, lost = 0, culled = 0;
 };
 
-/// Random points all around; `narrow` scales the cone.
-Counts countLost(const ReflectorMesh& mesh, const dvec3& eye, double narrow) {
+/// Random points all around; `inwards`: by how much all planes are moved.
+Counts countLost(const ReflectorMesh& mesh, const dvec3& eye, float inwards = 0) {
   const VirtualObjectSolver solver(mesh, eye, 20);
-  ReflectedCone cone = solver.reflectedCone();
-  cone.halfAngleRadians *= narrow;
+  ReflectedBeams beams = solver.reflectedBeams();
+  for (ReflectedBeams::Beam& beam : beams.beams)
+    for (BeamPlane& plane : beam) plane.distance += inwards;
   std::mt19937 random(3);
   std::uniform_real_distribution<double> logDistance(std::log(1.5), std::log(15.0));
   Counts counts;
@@ -42,7 +55,7 @@ Counts countLost(const ReflectorMesh& mesh, const dvec3& eye, double narrow) {
     const dvec3 point = mesh.centre() + randomDirection(random) * std::exp(logDistance(random));
     const auto found = solver.findReflectionPoint(Solver::Refined, point);
     const bool isReflected = found && found->kind == VertexKind::Reflected;
-    const bool isKept = cone.mayMeet(point, 0);
+    const bool isKept = beams.mayMeet(boxOf({point}));
     counts.reflected += isReflected;
     counts.lost += isReflected && !isKept;
     counts.culled += !isKept;
@@ -50,44 +63,51 @@ Counts countLost(const ReflectorMesh& mesh, const dvec3& eye, double narrow) {
   return counts;
 }
 
-TEST(ReflectedCone, HoldsEveryReflectedPoint) {
+TEST(ReflectedBeams, HoldEveryReflectedPoint) {
   for (const dvec3& eye : {dvec3(0.5, 0.2, 4), dvec3(-2, 1, 2.5)}) {
-    const Counts convex = countLost(meshOf(makeCap(2, 0.4, 1)), eye, 1);
+    const Counts convex = countLost(meshOf(makeCap(2, 0.4, 1)), eye);
     EXPECT_EQ(convex.lost, 0);
     EXPECT_GT(convex.reflected, 100);
     EXPECT_GT(convex.culled, 1000);
-    EXPECT_GT(countLost(meshOf(makeCap(2, 0.4, 1)), eye, 0.5).lost, 0);
+    EXPECT_GT(countLost(meshOf(makeCap(2, 0.4, 1)), eye, 0.5f).lost, 0);
   }
-  const Counts hollow = countLost(meshOf(makeCap(8, 1.2, -1)), dvec3(0.5, 0.2, -4), 1);
+  const Counts hollow = countLost(meshOf(makeCap(8, 1.2, -1)), dvec3(0.5, 0.2, -4));
   EXPECT_EQ(hollow.lost, 0);
   EXPECT_GT(hollow.reflected, 20);
 }
 
-TEST(ReflectedCone, SidesLieCloserThanTheConeAndLoseNothing) {
+TEST(ReflectedBeams, HoldHardlyMore) {
   const ReflectorMesh mesh = meshOf(makeCap(2, 0.6, 1, 0.15));
   for (const dvec3& eye : {dvec3(0.5, 0.2, 4), dvec3(-1, 0.6, 3)}) {
-    EXPECT_EQ(countLost(mesh, eye, 1).lost, 0);
-    ReflectedCone cone = VirtualObjectSolver(mesh, eye, 20).reflectedCone();
-    ASSERT_TRUE(cone.sides.has_value());
-    ReflectedCone round = cone;
-    round.sides.reset();
-    std::mt19937 random(5);
-    int met = 0, metByRound = 0;
-    for (int i = 0; i < 20000; ++i) {
-      const dvec3 point = cone.centre + 12.0 * randomDirection(random);
-      met += cone.mayMeet(point, 0), metByRound += round.mayMeet(point, 0);
-    }
-    EXPECT_LT(met, 0.7 * metByRound);
+    const Counts counts = countLost(mesh, eye);
+    EXPECT_EQ(counts.lost, 0);
+    EXPECT_GT(counts.reflected, 50);
+    EXPECT_LT(4000 - counts.culled, 2.2 * counts.reflected);
   }
 }
 
-TEST(ReflectedCone, OfARectangleOfAPictureHoldsWhatItShows) {
+TEST(ReflectedBeams, OfMirrorsThatTurnRoundFarAreSeveral) {
+  const ReflectorMesh mesh = meshOf(makeCap(0.5, 0.25, 1));
+  EXPECT_GT(beamsOf(mesh, dvec3(0, 0, 4)).beams.size(), 3u);
+  EXPECT_EQ(countLost(mesh, dvec3(0.3, 0, 4)).lost, 0);
+  EXPECT_GT(countLost(mesh, dvec3(0.3, 0, 4)).culled, 500);
+}
+
+TEST(ReflectedBeams, ABallReflectsAllAround) {
+  const ReflectorMesh mesh = meshOf(geometry::makeIcosphere(0.5, 12));
+  const ReflectedBeams beams = beamsOf(mesh, dvec3(0, 0, 3));
+  ASSERT_EQ(beams.beams.size(), 1u);
+  EXPECT_TRUE(beams.mayMeet(boxOf({dvec3(0, 0, -7)})));
+  EXPECT_EQ(countLost(mesh, dvec3(0, 0, 3)).culled, 0);
+}
+
+TEST(ReflectedBeams, OfARectangleOfAPictureHoldWhatItShows) {
   const dvec3 eye(1, 2, 3);
   const dmat4 clip =
       glm::perspective(0.9, 1.5, 0.1, 100.0) * glm::lookAt(eye, dvec3(-2, 0, 1), dvec3(0, 1, 0));
   const ivec2 size(600, 400);
   const gl::Scissor rectangle{420, 60, 90, 200};
-  const ReflectedCone cone = makePictureCone(clip, eye, size, rectangle);
+  const ReflectedBeams beams = makePictureBeam(clip, eye, size, rectangle);
   std::mt19937 random(6);
   int inside = 0;
   for (int i = 0; i < 40000; ++i) {
@@ -97,115 +117,161 @@ TEST(ReflectedCone, OfARectangleOfAPictureHoldsWhatItShows) {
     const dvec2 outside = glm::max(-px, px - dvec2(rectangle.width, rectangle.height));
     const double far = std::max(outside.x, outside.y);
     if (at.w > 0 && far < 0) {
-      EXPECT_TRUE(cone.mayMeet(point, 0));
+      EXPECT_TRUE(beams.mayMeet(boxOf({point})));
       ++inside;
     }
     if (at.w < 0 || far > 2) {
-      EXPECT_FALSE(cone.mayMeet(point, 0));
+      EXPECT_FALSE(beams.mayMeet(boxOf({point})));
     }
   }
   EXPECT_GT(inside, 100);
 }
 
+/// A flat mirror in y = 5.
+const dmat4& mirrored() {
+  static const dmat4 matrix =
+      glm::translate(dmat4(1), dvec3(0, 10, 0)) * glm::scale(dmat4(1), dvec3(1, -1, 1));
+  return matrix;
+}
+
+TEST(ReflectedBeams, MoveAsTheWorldDoes) {
+  const ReflectedBeams beams = beamsOf(meshOf(makeCap(2, 0.4, 1)), dvec3(0.5, 0.2, 4));
+  const ReflectedBeams moved = moveToWorld(beams, mirrored());
+  std::mt19937 random(8);
+  int met = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const dvec3 point = 14.0 * randomDirection(random), seen(mirrored() * dvec4(point, 1));
+    const bool isMet = beams.mayMeet(boxOf({seen}));
+    EXPECT_EQ(moved.mayMeet(boxOf({point})), isMet) << i;
+    met += isMet;
+  }
+  EXPECT_GT(met, 20);
+}
+
 TEST(TriangleRuns, LeaveOutOnlyWhatNoRayMeets) {
-  const ReflectorMesh mesh = meshOf(makeCap(2, 0.4, 1));
-  const ReflectedCone cone = VirtualObjectSolver(mesh, dvec3(0.5, 0.2, 4), 20).reflectedCone();
+  const ReflectedBeams beams = beamsOf(meshOf(makeCap(2, 0.4, 1)), dvec3(0.5, 0.2, 4));
   const geometry::Mesh floor = geometry::makePlane(30, 30, 60, 60);
   const TriangleRuns runs(floor.positions, floor.indices);
-  std::vector<std::uint8_t> mayMeet;
-  const std::size_t leftOut = runs.mark(cone, dmat4(1.0), mayMeet);
+  std::vector<std::uint8_t> mayMeet, mayMeetMirrored;
+  const std::size_t leftOut = runs.mark(beams, dmat4(1.0), mayMeet);
+  runs.mark(beams, mirrored(), mayMeetMirrored);
   ASSERT_EQ(mayMeet.size(), floor.indices.size() / 3);
   EXPECT_EQ(std::size_t(std::count(mayMeet.begin(), mayMeet.end(), 0)), leftOut);
   EXPECT_GT(leftOut, mayMeet.size() / 3);
+  EXPECT_NE(mayMeetMirrored, mayMeet);
   std::size_t met = 0;
   for (std::size_t i = 0; i < floor.indices.size(); ++i) {
-    if (!cone.mayMeet(dvec3(floor.positions[floor.indices[i]]), 0)) continue;
-    EXPECT_EQ(mayMeet[i / 3], 1) << i;
-    ++met;
-  }
-  EXPECT_GT(met, 50u);
-  // Seen through a flat mirror in y = 5.
-  const dmat4 mirrored = glm::translate(dmat4(1), dvec3(0, 10, 0)) * glm::scale(dmat4(1), dvec3(1, -1, 1));
-  std::vector<std::uint8_t> mayMeetMirrored;
-  runs.mark(cone, mirrored, mayMeetMirrored);
-  EXPECT_NE(mayMeetMirrored, mayMeet);
-  for (std::size_t i = 0; i < floor.indices.size(); ++i)
-    if (cone.mayMeet(dvec3(mirrored * dvec4(dvec3(floor.positions[floor.indices[i]]), 1)), 0)) {
+    const dvec3 point(floor.positions[floor.indices[i]]);
+    if (beams.mayMeet(boxOf({point}))) {
+      EXPECT_EQ(mayMeet[i / 3], 1) << i;
+      ++met;
+    }
+    if (beams.mayMeet(boxOf({dvec3(mirrored() * dvec4(point, 1))}))) {
       EXPECT_EQ(mayMeetMirrored[i / 3], 1) << i;
     }
+  }
+  EXPECT_GT(met, 50u);
 }
 
-TEST(ReflectedCone, ABallReflectsAllButItsShadow) {
-  const Counts ball = countLost(meshOf(geometry::makeIcosphere(0.5, 12)), dvec3(0, 0, 3), 1);
-  EXPECT_EQ(ball.lost, 0);
-  EXPECT_LT(ball.culled, 100);
+/// A floor before a wing mirror, with large and small triangles.
+struct Floor {
+  test::TestWorld world{makeCap(2, 0.4, 1)};
+  raster::TessellatedObjects objects;
+  Floor() {
+    world.add(geometry::makeQuad({-9, -1, 9}, {9, -1, 9}, {9, -1, -9}, {-9, -1, -9}), true);
+    objects = raster::tessellateForReflector(world.geometry(), 0);
+  }
+  [[nodiscard]] dvec3 corner(std::size_t i) const { return dvec3(objects.positions[objects.indices[i]]); }
+};
+
+bool hasBit(const std::vector<VertexBits>& bits, std::size_t vertex) {
+  return (bits[vertex / VertexRuns::kLength] >> vertex % VertexRuns::kLength & 1u) != 0;
 }
 
-TEST(VertexRuns, BallsHoldTheTrianglesThatTouchThem) {
-  test::TestWorld world(makeCap(2, 0.4, 1));
-  world.add(geometry::makeQuad({-9, -1, 9}, {9, -1, 9}, {9, -1, -9}, {-9, -1, -9}), true);
-  const raster::TessellatedObjects objects = raster::tessellateForReflector(world.geometry(), 0);
-  constexpr std::size_t kLength = 64;
-  const VertexRuns runs(objects, kLength);
-  ASSERT_GT(runs.balls().size(), 4u);
-  double radii = 0;
-  for (std::size_t i = 0; i < objects.indices.size(); ++i) {
-    const Ball& ball = runs.balls()[objects.indices[i] / kLength];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const dvec3 corner(objects.positions[objects.indices[i - i % 3 + k]]);
-      EXPECT_LE(glm::length(corner - ball.centre), ball.radius * 1.000001);
+TEST(VertexRuns, KeepEveryCornerOfWhatIsReflected) {
+  const Floor floor;
+  const ReflectorMesh mesh(floor.world.geometry(), 0);
+  const VirtualObjectSolver solver(mesh, dvec3(0.5, 0.2, 4), 20);
+  const VertexRuns runs(floor.objects);
+  std::vector<VertexBits> bits;
+  runs.findReflected(solver.reflectedBeams(), dmat4(1.0), bits);
+  ASSERT_EQ(bits.size(), runs.runs());
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> share(0, 1);
+  int reflected = 0;
+  for (std::size_t i = 0; i + 2 < floor.objects.indices.size(); i += 3) {
+    const double u = share(random), v = share(random) * (1 - u);
+    const dvec3 inside = floor.corner(i) * (1 - u - v) + floor.corner(i + 1) * u + floor.corner(i + 2) * v;
+    const auto found = solver.findReflectionPoint(Solver::Refined, inside);
+    if (!found || found->kind != VertexKind::Reflected) continue;
+    ++reflected;
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_TRUE(hasBit(bits, floor.objects.indices[i + k])) << i;
+  }
+  EXPECT_GT(reflected, 100);
+  EXPECT_GT(runs.countLeftOut(bits), floor.objects.positions.size() / 4);
+}
+
+TEST(VertexRuns, AskTheBoxAroundEachVertexsTriangles) {
+  const Floor floor;
+  const ReflectorMesh mesh(floor.world.geometry(), 0);
+  const ReflectedBeams beams = beamsOf(mesh, dvec3(0.5, 0.2, 4));
+  const VertexRuns runs(floor.objects);
+  std::vector<core::Box> boxes(floor.objects.positions.size());
+  for (std::size_t i = 0; i < floor.objects.indices.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) boxes[floor.objects.indices[i]].add(floor.corner(i - i % 3 + k));
+  for (const dmat4& beamsFromWorld : {dmat4(1.0), mirrored()}) {
+    std::vector<VertexBits> bits;
+    runs.findReflected(beams, beamsFromWorld, bits);
+    const ReflectedBeams moved = moveToWorld(beams, beamsFromWorld);
+    std::size_t kept = 0, leftOut = 0;
+    for (std::size_t v = 0; v < boxes.size(); ++v) {
+      const core::Box smaller{boxes[v].lower + 1e-4, boxes[v].upper - 1e-4},
+          larger{boxes[v].lower - 1e-4, boxes[v].upper + 1e-4};
+      if (moved.mayMeet(smaller)) {
+        EXPECT_TRUE(hasBit(bits, v)) << v;
+        ++kept;
+      }
+      if (!moved.mayMeet(larger)) {
+        EXPECT_FALSE(hasBit(bits, v)) << v;
+        ++leftOut;
+      }
     }
+    EXPECT_GT(kept + leftOut, boxes.size() * 95 / 100);
+    EXPECT_GT(leftOut, 100u);
   }
-  for (const Ball& ball : runs.balls()) radii += ball.radius;
-  EXPECT_LT(radii / double(runs.balls().size()),
-            4);  // of 12.7 for all: neighbours in the array are neighbours in space
 }
 
-TEST(ReflectedCone, MeetsBallsAsAnglesSay) {
-  std::mt19937 random(9);
-  std::uniform_real_distribution<double> half(0.0, 3.3), size(0.0, 1.5), far(0.1, 6.0);
-  int met = 0, missed = 0;
-  for (int i = 0; i < 4000; ++i) {
-    const ReflectedCone cone{
-        randomDirection(random), size(random), randomDirection(random), half(random), {}};
-    const double radius = size(random), both = cone.radius + radius;
-    const dvec3 offset = far(random) * randomDirection(random);
-    const double distance = glm::length(offset);
-    const double angle = std::acos(std::clamp(glm::dot(offset, cone.axis) / distance, -1.0, 1.0));
-    const double reach = cone.halfAngleRadians + (distance > both ? std::asin(both / distance) : 4.0);
-    if (std::abs(angle - reach) < 1e-9) continue;
-    EXPECT_EQ(cone.mayMeet(cone.centre + offset, radius), angle <= reach) << i;
-    (angle <= reach ? met : missed)++;
-  }
-  EXPECT_GT(met, 500);
-  EXPECT_GT(missed, 500);
-}
-
-TEST(VertexRuns, CountsWhatIsLeftOut) {
+TEST(VertexRuns, CountWhatIsLeftOut) {
   raster::TessellatedObjects objects;
   objects.positions.resize(25);
-  const VertexRuns runs(objects, 10);
+  const VertexRuns runs(objects);
   EXPECT_EQ(runs.countLeftOut({}), 0u);
-  EXPECT_EQ(runs.countLeftOut(std::vector<std::uint8_t>{1, 0, 0}), 15u);
+  EXPECT_EQ(runs.countLeftOut(std::vector<VertexBits>{0xffff, 0}), 9u);
+  EXPECT_EQ(runs.countLeftOut(std::vector<VertexBits>{0x0f03, 0xffff}), 10u);
+  std::vector<VertexBits> bits;  // nothing uses these vertices
+  runs.findReflected({{{}}}, dmat4(1.0), bits);
+  EXPECT_EQ(runs.countLeftOut(bits), 25u);
 }
 
-TEST(VertexRuns, LeftOutRunsChangeNoOther) {
-  const ReflectorMesh mesh = meshOf(makeCap(2, 0.4, 1));
-  const VirtualObjectSolver solver(mesh, dvec3(0.5, 0.2, 4), 20);
-  std::mt19937 random(5);
-  constexpr std::size_t kRun = VertexRuns::kLength;
-  std::vector<vec3> points(3 * kRun + kRun / 2 + 1);
-  for (vec3& p : points) p = vec3(mesh.centre() + 5.0 * randomDirection(random));
-  std::vector<vec3> all(points.size()), some(points.size());
-  std::vector<VertexKind> allKinds(points.size()), someKinds(points.size());
-  solver.compute(Solver::Refined, points, all, allKinds);
-  const std::vector<std::uint8_t> mayReflect{1, 0, 1, 0};
-  solver.compute(Solver::Refined, points, some, someKinds, {}, mayReflect);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const bool isIn = mayReflect[i / kRun] != 0;
-    EXPECT_EQ(someKinds[i], isIn ? allKinds[i] : VertexKind::None);
-    if (isIn) {
-      EXPECT_EQ(some[i], all[i]);
+TEST(VertexRuns, WhatIsLeftOutChangesNoOther) {
+  const ReflectorMesh cap = meshOf(makeCap(2, 0.4, 1)), hollow = meshOf(makeCap(2, 0.4, -1));
+  for (const ReflectorMesh* mesh : {&cap, &hollow}) {
+    const VirtualObjectSolver solver(*mesh, dvec3(0.5, 0.2, mesh == &cap ? 4 : 1), 20);
+    std::mt19937 random(5);
+    constexpr std::size_t kRun = VertexRuns::kLength;
+    std::vector<vec3> points(3 * kRun + kRun / 2 + 1);
+    for (vec3& p : points) p = vec3(mesh->centre() + 5.0 * randomDirection(random));
+    std::vector<vec3> all(points.size()), some(points.size());
+    std::vector<VertexKind> allKinds(points.size()), someKinds(points.size());
+    solver.compute(Solver::Refined, points, all, allKinds);
+    const std::vector<VertexBits> mayReflect{0xffff, 0, 0x53a1, 0xfffe};
+    solver.compute(Solver::Refined, points, some, someKinds, {}, mayReflect);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const bool isIn = hasBit(mayReflect, i);
+      EXPECT_EQ(someKinds[i], isIn ? allKinds[i] : VertexKind::None);
+      if (isIn) {
+        EXPECT_EQ(some[i], all[i]);
+      }
     }
   }
 }

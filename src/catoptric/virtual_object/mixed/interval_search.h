@@ -28,8 +28,8 @@
 #include <vector>
 
 #include "catoptric/raster/virtual_triangles.h"
-#include "catoptric/virtual_object/mixed/focal_distances.h"
 #include "catoptric/virtual_object/culling.h"
+#include "catoptric/virtual_object/mixed/focal_distances.h"
 
 namespace catoptric::virtual_object {
 
