@@ -159,6 +159,12 @@ TEST(Picture, cylinder) {
                {10, 0.25, "reflection points are interpolated between vertices"});
 }
 
+TEST(Picture, extrudedMirrorInAFrame) {
+  const Subject subject = subjectOf("tv");  // the frame reaches behind the screen, and is seen in its corners
+  expectWithin(subject, withTurnedNormals(subject.world, 0.005),
+               {16, 0.2, "edges that fall to the other side of a pixel"});
+}
+
 TEST(Picture, concaveMirror) {
   const Subject subject = subjectOf("concave-bowl");
   expectWithin(subject, withTurnedNormals(subject.world, 0.005),

@@ -88,13 +88,15 @@ void VirtualObjectMethod::prepare(raster::FrameContext& frame) {
   last_.clear();
 }
 
-/// The chord whose sag is twice the error that is allowed, or a pixel, where the mirror covers the pixels
-/// that it was prepared for.
+/// Those whose sag is about twice the error that is allowed, where the mirror covers the pixels that it was
+/// prepared for.
 raster::LongestChords VirtualObjectMethod::findLongestChords(const Prepared& p) {
-  const double sagPx = std::max(2.0 * p.maxErrorPx, 1.0);
-  const auto longest = float(p.mesh.bodyRadius() * std::sqrt(16.0 * sagPx / p.sizePx));
+  const auto chordOf = [&](double sagPx) {
+    return float(p.mesh.bodyRadius() * std::sqrt(16.0 * sagPx / p.sizePx));
+  };
   const bool hasBoundary = p.mesh.ordinaryCount() != p.mesh.triangles().size();
-  return {hasBoundary ? std::numeric_limits<float>::infinity() : longest, longest};
+  return {hasBoundary ? std::numeric_limits<float>::infinity() : chordOf(std::max(2.0 * p.maxErrorPx, 1.0)),
+          chordOf(2.0 * p.maxErrorPx + 1.0)};
 }
 
 VirtualObjectMethod::InParts::InParts(const ReflectorMesh& mesh) : InParts(mesh, cutIntoParts(mesh)) {}
