@@ -56,6 +56,7 @@ Json makeFrameJson(const renderer::FrameOptions& options, const renderer::Frame&
             {"primary_ms", times.primaryMs},
             {"reflection_ms", times.reflectionMs},
             {"virtual_vertices_ms", times.virtualVerticesMs},
+            {"cover_ms", times.coverMs},
             {"warp_ms", times.warpMs},
             {"capture_ms", times.captureMs}}},
           {"counters",

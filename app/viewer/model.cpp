@@ -10,8 +10,8 @@ void FrameHistory::add(const FrameResult& result) {
   const renderer::FrameTimings& times = result.frame->timings;
   Entry& entry = entries[count++ % kFrames];
   entry.primaryMs = float(times.primaryMs);
-  entry.verticesMs = float(times.virtualVerticesMs);
-  entry.reflectionMs = float(std::max(0.0, times.totalMs - times.primaryMs - times.virtualVerticesMs));
+  entry.verticesMs = float(times.virtualVerticesMs + times.coverMs);
+  entry.reflectionMs = std::max(0.0f, float(times.totalMs - times.primaryMs) - entry.verticesMs);
   entry.readMs = float(std::max(0.0, result.wholeMs - times.totalMs));
 }
 

@@ -22,6 +22,7 @@ struct MethodCounters {
   std::uint64_t virtualPixels = 0;  ///< of mirrors drawn in parts: shown by virtual objects
   std::uint64_t boundedPixels = 0;  ///< likewise: left to solver `exact`
   double virtualVerticesMs = 0;
+  double coverMs = 0;                  ///< of solver `exact`: where triangles may be seen
   std::uint64_t lookedUpVertices = 0;  ///< of morphing: searched in the octrees, the others were kept
   double lookUpMs = 0;
   std::uint64_t morphedTraces = 0;    ///< how many traces the vertices were morphed for

@@ -84,7 +84,8 @@ struct FrameTimings {
   double totalMs = 0;            ///< the frame, without reading it back
   double primaryMs = 0;          ///< the picture without reflections
   double reflectionMs = 0;       ///< everything else; RayTrace: all rays but those of the eye
-  double virtualVerticesMs = 0;  ///< of which: finding reflection points, or where triangles may be seen
+  double virtualVerticesMs = 0;  ///< of which: finding reflection points
+  double coverMs = 0;            ///< of which: Exact: where triangles may be seen
   double lookUpMs = 0;           ///< Morphing: look-ups in the octrees, not part of virtualVerticesMs
   double warpMs = 0;             ///< of which: warping zexels
   double captureMs = 0;          ///< of which: taking reference images

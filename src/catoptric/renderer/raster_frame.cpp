@@ -55,6 +55,7 @@ void addCounters(const raster::MethodCounters& counters, Frame& frame) {
   frame.counters.lookedUpVertices += counters.lookedUpVertices;
   frame.counters.morphedTraces = counters.morphedTraces;
   frame.timings.virtualVerticesMs += counters.virtualVerticesMs;
+  frame.timings.coverMs += counters.coverMs;
   frame.counters.virtualVertices += counters.virtualVertices;
   frame.counters.culledVertices += counters.culledVertices;
   frame.counters.culledTriangles += counters.culledTriangles;

@@ -161,7 +161,7 @@ void ExactMethod::findCover(raster::FrameContext& frame, const CoverQuery& query
   else
     tileHits_->compute(rays_, query, shading_.depthFromDistance(), cover_, hits_);
   const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
-  frame.counters.virtualVerticesMs += spent.count();
+  frame.counters.coverMs += spent.count();
   frame.counters.virtualTriangles += cover_.opaque.size() + cover_.masked.size() + cover_.blended.size();
   frame.counters.fragmentTests += cover_.offeredPixels;
 }
