@@ -9,6 +9,7 @@
 // and hardly anything is left out. Cost: a dozen products for each plane and box, eight boxes side by side.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
