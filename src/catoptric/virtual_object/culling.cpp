@@ -111,6 +111,14 @@ struct FindReflected {
   }
 };
 
+/// The beams where the world is; `moved` keeps them if that is elsewhere.
+const ReflectedBeams& seenInWorld(const ReflectedBeams& beams, const dmat4& beamsFromWorld,
+                                  ReflectedBeams& moved) {
+  if (beamsFromWorld == dmat4(1.0)) return beams;
+  moved = moveToWorld(beams, beamsFromWorld);
+  return moved;
+}
+
 std::size_t groupsOf(std::size_t boxes) {
   return (boxes + kLanes - 1) / kLanes;
 }
@@ -147,13 +155,14 @@ VertexRuns::VertexRuns(const raster::TessellatedObjects& objects)
 void VertexRuns::findReflected(const ReflectedBeams& beams, const dmat4& beamsFromWorld,
                                std::vector<VertexBits>& mayReflect) const {
   constexpr std::size_t kGroupsPerTask = 16;
-  const ReflectedBeams moved = moveToWorld(beams, beamsFromWorld);
+  ReflectedBeams moved;
+  const ReflectedBeams& seen = seenInWorld(beams, beamsFromWorld, moved);
   mayReflect.resize(runs());
   core::parallelFor(runBoxes_.size(), kGroupsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t group = begin; group < end; ++group) {
       VertexBits found[kLanes];
       const BoxLanes* vertexBoxes = &vertexBoxes_[group * kRun];
-      core::runOnWidestVectors<FindReflected>(moved, runBoxes_[group], vertexBoxes, found);
+      core::runOnWidestVectors<FindReflected>(seen, runBoxes_[group], vertexBoxes, found);
       std::copy_n(found, std::min(kLanes, runs() - group * kLanes), &mayReflect[group * kLanes]);
     }
   });
@@ -183,12 +192,13 @@ TriangleRuns::TriangleRuns(std::span<const vec3> positions, std::span<const std:
 std::size_t TriangleRuns::mark(const ReflectedBeams& beams, const dmat4& beamsFromWorld,
                                std::vector<std::uint8_t>& mayMeet) const {
   mayMeet.resize(triangles_);
-  const ReflectedBeams moved = moveToWorld(beams, beamsFromWorld);
-  const std::uint32_t all = allOf(moved);
+  ReflectedBeams moved;
+  const ReflectedBeams& seen = seenInWorld(beams, beamsFromWorld, moved);
+  const std::uint32_t all = allOf(seen);
   std::size_t leftOut = 0;
   for (std::size_t group = 0; group < boxes_.size(); ++group) {
     unsigned met;
-    core::runOnWidestVectors<MeetBoxes>(moved, all, boxes_[group], met);
+    core::runOnWidestVectors<MeetBoxes>(seen, all, boxes_[group], met);
     for (std::size_t i = 0; i < kLanes; ++i) {
       const std::size_t first = (group * kLanes + i) * kTriangleRun;
       if (first >= triangles_) break;

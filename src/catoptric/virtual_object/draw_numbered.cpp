@@ -18,8 +18,8 @@ void VirtualObjectMethod::markTriangles(const raster::FrameContext& frame, Numbe
   const PictureView picture{mat4(m.view.clipFromDraw), m.view.parent->widthPx, m.view.parent->heightPx,
                             m.view.windingFlipped};
   if (!m.prepared)
-    m.pictureBeam = makePictureBeam(m.view.clipFromDraw, m.view.drawEye, {picture.widthPx, picture.heightPx},
-                                    m.chain->bounds);
+    makePictureBeam(m.view.clipFromDraw, m.view.drawEye, {picture.widthPx, picture.heightPx}, m.chain->bounds,
+                    m.pictureBeam);
   const ReflectedBeams& beams = m.prepared ? m.prepared->solver->reflectedBeams() : m.pictureBeam;
   m.culled = m.runs->mark(beams, m.prepared ? m.chain->drawFromWorld : dmat4(1.0), m.triangles.isKept);
   projectVertices(

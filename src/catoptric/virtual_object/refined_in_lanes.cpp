@@ -2,7 +2,9 @@
 // Refined, eight vertices side by side, for convex mirrors (virtual_object_solver.h): what a frame's time
 // depends on.
 //
-//   1. Surely hidden by the mirror? Then no search.
+//   1. Surely hidden by the mirror? Then no search. What was seen last time is not asked: if it is hidden
+//   now,
+//      its search finds nothing, for a convex mirror lies behind the tangent plane of every root.
 //   2. The others are searched together (lane_search.h), until only a few of eight go on.
 //   3. These wait for others of their kind, and go on together.
 //   What is not easy goes to the double search, from where it was found last or from its own seed.

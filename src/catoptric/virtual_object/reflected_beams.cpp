@@ -148,28 +148,26 @@ void MirrorPatches::makeBeams(const ReflectorMesh& mesh, const ReflectedRays& ra
   if (isAllAround(out)) out.beams.assign(1, {});
 }
 
-ReflectedBeams makePictureBeam(const dmat4& clipFromWorld, const dvec3& eye, const ivec2& sizePx,
-                               const gl::Scissor& rectangle) {
+void makePictureBeam(const dmat4& clipFromWorld, const dvec3& eye, const ivec2& sizePx,
+                     const gl::Scissor& rectangle, ReflectedBeams& out) {
   constexpr double kMarginPx = 1;
   const dmat4 rows = glm::transpose(clipFromWorld);
   const dvec2 size(sizePx), first = dvec2(rectangle.x, rectangle.y) - kMarginPx,
                             last = first + dvec2(rectangle.width, rectangle.height) + 2.0 * kMarginPx;
   const dvec2 lower = 2.0 * first / size - 1.0, upper = 2.0 * last / size - 1.0;
-  ReflectedBeams picture{{{}}};
+  out.beams.assign(1, {});
   const auto through = [&](const dvec3& inwards) {
     const dvec3 normal = glm::normalize(inwards);
     return BeamPlane{vec3(normal), float(glm::dot(normal, eye) - kRounding * glm::length(eye))};
   };
   for (int k = 0; k < 2; ++k) {
-    picture.beams[0][std::size_t(k)] = through(rows[k] - lower[k] * rows[3]);
-    picture.beams[0][std::size_t(k) + 2] = through(upper[k] * rows[3] - rows[k]);
+    out.beams[0][std::size_t(k)] = through(rows[k] - lower[k] * rows[3]);
+    out.beams[0][std::size_t(k) + 2] = through(upper[k] * rows[3] - rows[k]);
   }
-  return picture;
 }
 
 ReflectedBeams moveToWorld(const ReflectedBeams& beams, const dmat4& beamsFromWorld) {
   ReflectedBeams moved = beams;
-  if (beamsFromWorld == dmat4(1.0)) return moved;
   const dmat3 worldFromBeams = glm::transpose(dmat3(beamsFromWorld));
   for (ReflectedBeams::Beam& beam : moved.beams)
     for (BeamPlane& plane : beam) {

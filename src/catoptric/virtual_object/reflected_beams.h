@@ -64,9 +64,9 @@ class MirrorPatches {
 };
 
 /// What a perspective whose centre is `eye` shows in a rectangle, (0,0) the lower left pixel of the picture:
-/// what a flat mirror does, for the mirrored eye.
-[[nodiscard]] ReflectedBeams makePictureBeam(const dmat4& clipFromWorld, const dvec3& eye,
-                                             const ivec2& sizePx, const gl::Scissor& rectangle);
+/// what a flat mirror does, for the mirrored eye. Reuses the memory of `out`.
+void makePictureBeam(const dmat4& clipFromWorld, const dvec3& eye, const ivec2& sizePx,
+                     const gl::Scissor& rectangle, ReflectedBeams& out);
 
 /// Of a mirror that flat ones move the world for: `beamsFromWorld` is what takes vertices to where it sees
 /// them, a product of reflections.

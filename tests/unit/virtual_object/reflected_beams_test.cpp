@@ -107,7 +107,8 @@ TEST(ReflectedBeams, OfARectangleOfAPictureHoldWhatItShows) {
       glm::perspective(0.9, 1.5, 0.1, 100.0) * glm::lookAt(eye, dvec3(-2, 0, 1), dvec3(0, 1, 0));
   const ivec2 size(600, 400);
   const gl::Scissor rectangle{420, 60, 90, 200};
-  const ReflectedBeams beams = makePictureBeam(clip, eye, size, rectangle);
+  ReflectedBeams beams;
+  makePictureBeam(clip, eye, size, rectangle, beams);
   std::mt19937 random(6);
   int inside = 0;
   for (int i = 0; i < 40000; ++i) {
