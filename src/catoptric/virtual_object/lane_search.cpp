@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "catoptric/core/eight_lanes.h"
-#include "catoptric/virtual_object/lane_map.h"
+#include "catoptric/virtual_object/lane_seed.h"
 #include "catoptric/virtual_object/mesh_walk.h"
 #include "catoptric/virtual_object/mirror_law_lanes.h"
 #include "catoptric/virtual_object/reflection_point.h"
@@ -19,7 +19,7 @@ using core::fromBits;
 using core::toBits;
 
 constexpr float kAlmostSine = 2e-3f;  // one more step leaves about the square of it
-constexpr float kStaleSine = 0.1f;    // the maps know better than the last frame
+constexpr float kStale = 0.1f;        // of h's part across the normal: the maps know better
 constexpr float kGrazing = 0.02f;     // of h.n = 2 cos(angle of incidence): below it floats lose too much
 constexpr auto kStraight = float(MirrorLaw::kStraight);
 constexpr auto kShorter = float(search_limits::kShorter);
@@ -30,58 +30,14 @@ constexpr int kStepsBehind = 5;     // then a search that is on the back stays t
 constexpr float kOutside = 1e-5f;   // barycentric slack
 constexpr int kMostCrossings = 16;  // of edges in one step; the next one goes on
 
-/// A place on the mirror in each lane.
-struct Places {
-  EightInts triangle;
-  Eight u, v;
-};
-
-CATOPTRIC_INLINE Places choose(const EightInts& which, const Places& yes, const Places& no) {
-  return {which ? yes.triangle : no.triangle, which ? yes.u : no.u, which ? yes.v : no.v};
-}
-
 /// As LaneState, and what became of the lanes.
 struct Search {
   Places at, last;
   Triangles t;  ///< of `at`
   Eight stepU, stepV, merit;
   EightInts steps, stepsOutside, shortened;
-  EightInts active, found{}, lost{}, hard{};
+  EightInts active, wasLost, found{}, lost{}, hard{};
 };
-
-/// Step 1: where the eye sees what the maps say, in the triangle that the hidden map shows there.
-CATOPTRIC_INLINE Places seed(const LaneView& view, const LaneVector& local) {
-  const LaneVector d = local - broadcast(view.seedMap.centre);
-  const Eight layer =
-      (1.0f / squareRoot(larger(dot(d, d), Eight{} + 1e-30f)) - view.inverseNear) * view.layersPerInverse;
-  const Eight nearWeight = 1.0f - smaller(larger(layer, Eight{}), Eight{} + 1.0f);
-  const MapPlace place = findPlace(view.seedMap, local);
-  static_assert(sizeof(SeedPixel) == sizeof(Eight));
-  Eights seeds;
-  for (int i = 0; i < kLanes; ++i) seeds[i] = load(&view.seeds[std::uint32_t(place.index[i])].nearPosition.x);
-  core::transpose(seeds);
-  EightInts nearTriangle, farTriangle;
-  std::memcpy(&nearTriangle, &seeds[3], sizeof nearTriangle);
-  std::memcpy(&farTriangle, &seeds[7], sizeof farTriangle);
-  const LaneVector near{{seeds[0], seeds[1], seeds[2]}}, far{{seeds[4], seeds[5], seeds[6]}};
-  const LaneVector target = toLocal(view, nearWeight * near + (1.0f - nearWeight) * far);
-  const MapPlace shown = findPlace(view.hiddenMap, target);
-  EightInts triangle;
-  for (int i = 0; i < kLanes; ++i) triangle[i] = std::int32_t(view.hiddenIds[std::uint32_t(shown.index[i])]);
-  const EightInts isShown = shown.isInside & (triangle != std::int32_t(core::kNoId));
-  Places at;
-  at.triangle = isShown ? triangle : nearWeight >= 0.5f ? nearTriangle : farTriangle;
-  Triangles t;
-  gather(view.triangles, at.triangle, t);
-  const LaneVector inTriangle = target - t.position0;
-  const Eight a = dot(t.edge1, inTriangle), b = dot(t.edge2, inTriangle);
-  const Eight u = larger(t.gram11 * a + t.gram12 * b, Eight{}),
-              v = larger(t.gram12 * a + t.gram22 * b, Eight{});
-  const Eight inside = 1.0f / larger(u + v, Eight{} + 1.0f);
-  at.u = isShown ? u * inside : Eight{} + 1.0f / 3;
-  at.v = isShown ? v * inside : Eight{} + 1.0f / 3;
-  return at;
-}
 
 /// Some lanes to where the maps say.
 CATOPTRIC_INLINE void restart(const LaneView& view, const EightInts& which, const LaneVector& local,
@@ -139,7 +95,7 @@ CATOPTRIC_INLINE void storeAs(void* to, const Value& value) {
 
 CATOPTRIC_INLINE Search resume(const LaneGroup& group) {
   Search s;
-  s.active = fromBits(group.wanted);
+  s.active = fromBits(group.wanted), s.wasLost = loadAs<EightInts>(group.wasLost) != 0;
   s.at = {loadAs<EightInts>(group.triangle), load(group.u), load(group.v)};
   s.stepU = s.stepV = s.merit = Eight{};
   s.last = s.at;
@@ -166,7 +122,10 @@ struct SearchLanes {
       if (toBits(isSeeded) != 0) restart(view, isSeeded, local, s);
       const Law law = evaluate(s.t, s.at.u, s.at.v, eye, local);
       const EightInts isMet = law.distance <= view.contact;
-      isSeeded = mayBeStale & ~isMet & ~(law.squaredSine < kStaleSine * kStaleSine);
+      const EightInts isFresh = law.squaredSine * law.squaredHalf < kStale * kStale;
+      const EightInts wasLost = mayBeStale & s.wasLost;
+      if (toBits(wasLost) != 0) loseAgain(wasLost & isFresh, law, eye, s);
+      isSeeded = mayBeStale & s.active & ~isMet & ~(isFresh & ~wasLost);
       mayBeStale = EightInts{};
       if (toBits(isSeeded) != 0) continue;
       s.steps -= s.active;
@@ -183,11 +142,32 @@ struct SearchLanes {
 
   /// Points on the mirror: the law has no meaning there, and they are seen where they are.
   CATOPTRIC_INLINE static void meet(const EightInts& isMet, const LaneVector& eye, Search& s) {
+    const EightInts isSeen = facesEye(s, eye);
+    s.found |= s.active & isMet & isSeen, s.lost |= s.active & isMet & ~isSeen;
+    s.active &= ~isMet;
+  }
+
+  CATOPTRIC_INLINE static EightInts facesEye(const Search& s, const LaneVector& eye) {
     const LaneVector position = s.t.position0 + s.at.u * s.t.edge1 + s.at.v * s.t.edge2,
                      normal = s.t.normal0 + s.at.u * s.t.normal1 + s.at.v * s.t.normal2;
-    const EightInts facesEye = dot(normal, eye - position) > 0.0f;
-    s.found |= s.active & isMet & facesEye, s.lost |= s.active & isMet & ~facesEye;
-    s.active &= ~isMet;
+    return dot(normal, eye - position) > 0.0f;
+  }
+
+  CATOPTRIC_INLINE static EightInts isStraight(const Law& law) {
+    return law.squaredHalf < kStraight * kStraight;
+  }
+
+  /// What was lost is so still if the ray to the point enters the mirror there, or if Newton's step does not
+  /// lead back from far outside. If not, its place is no good start: a root on the back would hold it.
+  CATOPTRIC_INLINE static void loseAgain(const EightInts& which, const Law& law, const LaneVector& eye,
+                                         Search& s) {
+    const Eight u = s.at.u + law.stepU, v = s.at.v + law.stepV;
+    const Eight past0 = smaller(-s.at.v, -v), past1 = smaller(s.at.u + s.at.v, u + v) - 1.0f,
+                past2 = smaller(-s.at.u, -u);
+    const EightInts isAstray = (law.facing > 0.0f) & (larger(larger(past0, past1), past2) > kFarOutside);
+    const EightInts enters = isStraight(law) & (outsideBy(s.at.u, s.at.v) <= 0.0f) & facesEye(s, eye);
+    s.lost |= which & (isAstray | enters);
+    s.active &= ~s.lost;
   }
 
   /// Steps 4 and 5.
@@ -195,10 +175,9 @@ struct SearchLanes {
                                       Search& s) {
     const EightInts isFar = outsideBy(s.at.u, s.at.v) > kFarOutside;
     s.stepsOutside -= s.active & isFar;
-    const EightInts isStraight = law.squaredHalf < kStraight * kStraight;
     const EightInts isBehind = (law.facing < 0.0f) & (isLast | (s.steps > kStepsBehind));
     const EightInts isAstray = ~isLast & isFar & (s.stepsOutside > search_limits::kMostStepsOutside);
-    const EightInts isLost = s.active & (isStraight | isBehind | isAstray);
+    const EightInts isLost = s.active & (isStraight(law) | isBehind | isAstray);
     s.lost |= isLost;
     const EightInts isHard =
         (isLast ? law.facing <= kGrazing : s.steps >= kMaxSteps) | ~(law.distance > view.touching);
@@ -286,6 +265,7 @@ void moveLane(const LaneGroup& from, std::size_t i, LaneGroup& to, std::size_t j
   for (int k = 0; k < 3; ++k) to.point[k][j] = from.point[k][i];
   to.vertex[j] = from.vertex[i];
   to.triangle[j] = from.triangle[i], to.u[j] = from.u[i], to.v[j] = from.v[i];
+  to.wasLost[j] = from.wasLost[i];
   const LaneState& a = from.state;
   LaneState& b = to.state;
   b.triangle[j] = a.triangle[i], b.u[j] = a.u[i], b.v[j] = a.v[i];

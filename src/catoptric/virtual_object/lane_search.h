@@ -10,8 +10,8 @@
 //   3. Steps that leave their triangle walk over the mesh, lane by lane (mesh_walk.h); past the end of an
 //      open mirror the last triangle is extrapolated.
 //   4. Three ends say that nothing is reflected: the mirror's back, at a root or for long; the place where
-//   the
-//      ray to the point goes straight into the mirror, where h vanishes; too many steps far outside.
+//      the ray to the point goes straight into the mirror, where h vanishes; too many steps far outside. The
+//      last two are asked again first in the next frame; if they do not hold, the search begins anew.
 //   5. What is not easy - nearly touching the mirror, grazing, no quick convergence - is handed back for the
 //      double search. So what is found, and for which vertices, is what that one finds. A point that lies on
 //      the mirror, to within what floats tell, is seen where it is: the law has no meaning there.
@@ -69,11 +69,14 @@ struct LaneView {
   float longestStep = 0;  ///< on the mirror
 };
 
-/// Where a vertex was last seen in a mirror. A place that is not on the mirror at all is as good as none; one
+/// Where the last search of a vertex ended. A place that is not on the mirror at all is as good as none; one
 /// that is wrong costs an evaluation.
 struct LanePlace {
-  std::int32_t triangle = -1;  ///< -1: nowhere
+  std::int32_t triangle = -1;  ///< -1: there was none
   float u = 0, v = 0;
+  std::int32_t wasLost = 0;  ///< it gave up there
+
+  [[nodiscard]] bool isSeen() const { return triangle >= 0 && wasLost == 0; }
 };
 using LanePlaces = std::vector<LanePlace>;
 
@@ -91,8 +94,9 @@ struct alignas(64) LaneGroup {
   LaneFloats point[3];            ///< in: Q, world
   std::int32_t triangle[kLanes];  ///< in: as LanePlace; out: where the search stands
   LaneFloats u = {}, v = {};
-  bool hasBegun = false;  ///< in: searchLanes() left it before it was ready
-  LaneState state;        ///< if so
+  std::int32_t wasLost[kLanes] = {};  ///< in: as LanePlace
+  bool hasBegun = false;              ///< in: searchLanes() left it before it was ready
+  LaneState state;                    ///< if so
 
   unsigned hidden = 0;  ///< out of hideLanes(): mirrored where the mirror hides them
 

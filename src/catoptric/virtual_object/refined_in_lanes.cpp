@@ -2,11 +2,13 @@
 // Refined, eight vertices side by side, for convex mirrors (virtual_object_solver.h): what a frame's time
 // depends on.
 //
-//   1. Surely hidden by the mirror? Then no search. What was seen last time is not asked: if it is hidden
-//   now,
-//      its search finds nothing, for a convex mirror lies behind the tangent plane of every root.
-//   2. The others are searched together (lane_search.h), until only a few of eight go on.
-//   3. These wait for others of their kind, and go on together.
+// Vertices and searches wait until eight of their kind are there:
+//   1. Not seen in the last frame: surely hidden by the mirror? Then no search. What was seen is not asked:
+//   if
+//      it is hidden now, its search finds nothing, for a convex mirror lies behind the tangent plane of every
+//      root.
+//   2. What is not hidden is searched together (lane_search.h), until only a few of eight go on.
+//   3. These go on together.
 //   What is not easy goes to the double search, from where it was found last or from its own seed.
 #include <algorithm>
 #include <bit>
@@ -30,6 +32,14 @@ void forEachLane(unsigned lanes, const Function& function) {
 
 vec3 laneOf(const LaneFloats (&vector)[3], std::size_t lane) {
   return {vector[0][lane], vector[1][lane], vector[2][lane]};
+}
+
+void setLane(LaneGroup& group, std::size_t lane, std::size_t vertex, const vec3& point,
+             const LanePlace& place) {
+  group.vertex[lane] = vertex;
+  for (int k = 0; k < 3; ++k) group.point[k][lane] = point[k];
+  group.triangle[lane] = place.triangle, group.u[lane] = place.u, group.v[lane] = place.v;
+  group.wasLost[lane] = place.wasLost;
 }
 
 }  // namespace
@@ -61,29 +71,6 @@ void VirtualObjectSolver::prepareLanes() {
   view.longestStep = float(options_.longestStep * mesh_->radius());
 }
 
-/// Up to eight vertices as a group.
-void VirtualObjectSolver::gatherGroup(const VertexSink& sink, std::span<const std::uint32_t> vertices,
-                                      LaneGroup& group) {
-  float sum = 0;
-  for (std::size_t lane = 0; lane < std::size_t(kLanes); ++lane) {
-    const std::size_t i = vertices[std::min(lane, vertices.size() - 1)];
-    group.vertex[lane] = i;
-    const vec3& point = sink.scenePoints[i];
-    for (int k = 0; k < 3; ++k) group.point[k][lane] = point[k];
-    sum += point.x + point.y + point.z;
-    const LanePlace place = sink.places != nullptr ? (*sink.places)[i] : LanePlace{};
-    group.triangle[lane] = place.triangle, group.u[lane] = place.u, group.v[lane] = place.v;
-  }
-  group.wanted = (1u << vertices.size()) - 1;
-  if (std::isfinite(sum)) return;
-  for (std::size_t lane = 0; lane < vertices.size(); ++lane) {
-    const vec3& point = sink.scenePoints[vertices[lane]];
-    if (std::isfinite(point.x + point.y + point.z)) continue;
-    group.wanted &= ~(1u << lane);
-    sink.write(vertices[lane], VirtualVertex{});
-  }
-}
-
 /// What searchLanes() says, and the double search of what is hard.
 void VirtualObjectSolver::conclude(const VertexSink& sink, const LaneGroup& group) const {
   const auto write = [&](std::size_t lane, VertexKind kind) {
@@ -95,9 +82,8 @@ void VirtualObjectSolver::conclude(const VertexSink& sink, const LaneGroup& grou
   });
   if (sink.places != nullptr)
     forEachLane(group.found | group.lost, [&](std::size_t lane) {
-      const bool isFound = (group.found >> lane & 1u) != 0;
-      (*sink.places)[group.vertex[lane]] = {isFound ? group.triangle[lane] : -1, group.u[lane],
-                                            group.v[lane]};
+      (*sink.places)[group.vertex[lane]] = {group.triangle[lane], group.u[lane], group.v[lane],
+                                            std::int32_t(group.lost >> lane & 1u)};
     });
   forEachLane(group.lost, [&](std::size_t lane) {
     const dvec3 point(sink.scenePoints[group.vertex[lane]]);
@@ -112,7 +98,7 @@ void VirtualObjectSolver::solveHard(const VertexSink& sink, std::size_t i) const
   const dvec3 point(sink.scenePoints[i]);
   LanePlace* place = sink.places != nullptr ? &(*sink.places)[i] : nullptr;
   std::optional<VirtualVertex> vertex;
-  if (place != nullptr && place->triangle >= 0 && std::size_t(place->triangle) < laneTriangles_.size())
+  if (place != nullptr && place->isSeen() && std::size_t(place->triangle) < laneTriangles_.size())
     vertex = solveFrom({std::uint32_t(place->triangle), place->u, place->v}, point);
   if (!vertex) {
     double nearWeight;
@@ -122,53 +108,70 @@ void VirtualObjectSolver::solveHard(const VertexSink& sink, std::size_t i) const
   sink.write(i, vertex->checked());
   if (place == nullptr) return;
   const bool isFound = vertex->kind == VertexKind::Reflected || vertex->kind == VertexKind::PastBoundary;
-  *place = {isFound ? std::int32_t(vertex->at.triangle) : -1, float(vertex->at.u), float(vertex->at.v)};
+  *place = {isFound ? std::int32_t(vertex->at.triangle) : -1, float(vertex->at.u), float(vertex->at.v), 0};
 }
 
-void VirtualObjectSolver::solveGroup(const VertexSink& sink, LaneGroup& group, Stragglers& stragglers) const {
-  // 1
-  unsigned unknown = 0;
-  for (unsigned lane = 0; lane < unsigned(kLanes); ++lane)
-    unknown |= unsigned(group.triangle[lane] < 0) << lane;
-  unknown &= group.wanted;
-  if (unknown != 0) {
-    hideLanes(laneView_, group);
-    forEachLane(group.hidden & unknown, [&](std::size_t lane) {
-      sink.write(group.vertex[lane], laneOf(group.virtualPosition, lane), laneOf(group.position, lane),
-                 VertexKind::DoublyVirtual);
-    });
-    group.wanted &= ~(group.hidden & unknown);
-    if (group.wanted == 0) return;
-  }
-  // 2
-  searchLanes(laneView_, group, kStragglers);
+/// Writes those that are surely hidden, and wants them no more.
+void VirtualObjectSolver::hideGroup(const VertexSink& sink, LaneGroup& group) const {
+  hideLanes(laneView_, group);
+  forEachLane(group.hidden, [&](std::size_t lane) {
+    sink.write(group.vertex[lane], laneOf(group.virtualPosition, lane), laneOf(group.position, lane),
+               VertexKind::DoublyVirtual);
+  });
+  group.wanted &= ~group.hidden;
+}
+
+void VirtualObjectSolver::solveQueue(const VertexSink& sink, WaitingLanes::Queue& queue,
+                                     WaitingLanes& waiting) const {
+  if (queue.count == 0) return;
+  LaneGroup& group = queue.group;
+  group.wanted = (1u << queue.count) - 1;
+  for (std::size_t lane = queue.count; lane < std::size_t(kLanes); ++lane) moveLane(group, 0, group, lane);
+  queue.count = 0;
+  const bool isLast = &queue == &waiting.stragglers;
+  if (&queue == &waiting.unseen) hideGroup(sink, group);  // 1
+  if (group.wanted == 0) return;
+  searchLanes(laneView_, group, isLast ? 0 : kStragglers);  // 2
   conclude(sink, group);
-  // 3
-  forEachLane(group.goesOn, [&](std::size_t lane) {
-    moveLane(group, lane, stragglers.group, stragglers.count++);
-    if (stragglers.count == std::size_t(kLanes)) solveStragglers(sink, stragglers);
+  forEachLane(group.goesOn, [&](std::size_t lane) {  // 3
+    WaitingLanes::Queue& to = waiting.stragglers;
+    to.group.hasBegun = true;
+    moveLane(group, lane, to.group, to.count++);
+    if (to.count == std::size_t(kLanes)) solveQueue(sink, to, waiting);
   });
 }
 
-void VirtualObjectSolver::solveStragglers(const VertexSink& sink, Stragglers& stragglers) const {
-  if (stragglers.count == 0) return;
-  LaneGroup& group = stragglers.group;
-  group.wanted = (1u << stragglers.count) - 1;
-  group.hasBegun = true;
-  for (std::size_t lane = stragglers.count; lane < std::size_t(kLanes); ++lane)
-    moveLane(group, 0, group, lane);
-  searchLanes(laneView_, group, 0);
-  conclude(sink, group);
-  stragglers.count = 0;
+void VirtualObjectSolver::computeInLanes(const VertexSink& sink, std::span<const std::uint32_t> vertices,
+                                         WaitingLanes& waiting) const {
+  constexpr std::size_t kAhead = 16;  // so that their triangles are in the cache by then
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (sink.places != nullptr && i + kAhead < vertices.size())
+      prefetch((*sink.places)[vertices[i + kAhead]]);
+    const std::uint32_t v = vertices[i];
+    const vec3& point = sink.scenePoints[v];
+    if (!std::isfinite(point.x + point.y + point.z)) {
+      sink.write(v, VirtualVertex{});
+      continue;
+    }
+    const LanePlace place = sink.places != nullptr ? (*sink.places)[v] : LanePlace{};
+    WaitingLanes::Queue& queue = place.isSeen() ? waiting.seen : waiting.unseen;
+    setLane(queue.group, queue.count++, v, point, place);
+    if (queue.count == std::size_t(kLanes)) solveQueue(sink, queue, waiting);
+  }
 }
 
-void VirtualObjectSolver::computeInLanes(const VertexSink& sink, std::span<const std::uint32_t> vertices,
-                                         Stragglers& stragglers) const {
-  for (; !vertices.empty(); vertices = vertices.subspan(std::min(vertices.size(), std::size_t(kLanes)))) {
-    LaneGroup group;
-    gatherGroup(sink, vertices.first(std::min(vertices.size(), std::size_t(kLanes))), group);
-    solveGroup(sink, group, stragglers);
-  }
+/// All that still waits.
+void VirtualObjectSolver::finishLanes(const VertexSink& sink, WaitingLanes& waiting) const {
+  solveQueue(sink, waiting.seen, waiting);
+  solveQueue(sink, waiting.unseen, waiting);
+  solveQueue(sink, waiting.stragglers, waiting);
+}
+
+/// Has the triangle where a search will begin brought into the cache.
+void VirtualObjectSolver::prefetch(const LanePlace& place) const {
+  if (std::size_t(place.triangle) >= laneTriangles_.size()) return;
+  const char* record = reinterpret_cast<const char*>(&laneTriangles_[std::size_t(place.triangle)]);
+  for (std::size_t line = 0; line < sizeof(LaneTriangle); line += 64) __builtin_prefetch(record + line);
 }
 
 }  // namespace catoptric::virtual_object

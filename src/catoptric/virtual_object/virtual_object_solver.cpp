@@ -291,7 +291,7 @@ void VirtualObjectSolver::compute(Solver solver, std::span<const vec3> scenePoin
   const std::size_t runs = (scenePoints.size() + kRun - 1) / kRun;
   assert(mayReflect.empty() || mayReflect.size() == runs);
   core::parallelFor(runs, kRunsPerTask, [&](std::size_t firstRun, std::size_t endRun) {
-    Stragglers stragglers;
+    WaitingLanes waiting;
     for (std::size_t first = firstRun; first < endRun; first += kRunsPerTask) {
       std::uint32_t wanted[kRunsPerTask * kRun];
       std::size_t count = 0;
@@ -307,11 +307,11 @@ void VirtualObjectSolver::compute(Solver solver, std::span<const vec3> scenePoin
       if (solver != Solver::Refined || !canReflect_)
         for (const std::uint32_t v : vertices) sink.write(v, solve(solver, dvec3(scenePoints[v])));
       else if (mesh_->isConvex())  // one root only: wherever a search begins, it ends there
-        computeInLanes(sink, vertices, stragglers);
+        computeInLanes(sink, vertices, waiting);
       else
         computeInOrder(sink, vertices);
     }
-    solveStragglers(sink, stragglers);
+    finishLanes(sink, waiting);
   });
 }
 

@@ -93,10 +93,14 @@ struct VertexSink {
   }
 };
 
-/// Searches that took longer than those beside them (refined_in_lanes.cpp).
-struct Stragglers {
-  LaneGroup group;
-  std::size_t count = 0;
+/// Searches that wait until eight of their kind are there (refined_in_lanes.cpp).
+struct WaitingLanes {
+  struct Queue {
+    LaneGroup group;
+    std::size_t count = 0;
+  };
+  Queue seen, unseen;  ///< in the last frame
+  Queue stragglers;    ///< took longer than those beside them
 };
 
 class VirtualObjectSolver {
@@ -161,10 +165,11 @@ class VirtualObjectSolver {
   [[nodiscard]] bool doMapsServe(const dvec3& eye) const;
   void computeInOrder(const VertexSink& sink, std::span<const std::uint32_t> vertices) const;
   void computeInLanes(const VertexSink& sink, std::span<const std::uint32_t> vertices,
-                      Stragglers& stragglers) const;
-  static void gatherGroup(const VertexSink& sink, std::span<const std::uint32_t> vertices, LaneGroup& group);
-  void solveGroup(const VertexSink& sink, LaneGroup& group, Stragglers& stragglers) const;
-  void solveStragglers(const VertexSink& sink, Stragglers& stragglers) const;
+                      WaitingLanes& waiting) const;
+  void finishLanes(const VertexSink& sink, WaitingLanes& waiting) const;
+  void solveQueue(const VertexSink& sink, WaitingLanes::Queue& queue, WaitingLanes& waiting) const;
+  void prefetch(const LanePlace& place) const;
+  void hideGroup(const VertexSink& sink, LaneGroup& group) const;
   void conclude(const VertexSink& sink, const LaneGroup& group) const;
   void solveHard(const VertexSink& sink, std::size_t vertex) const;
   void prepareLanes();
