@@ -190,6 +190,30 @@ TEST(Picture, convexMirrorInAFrame) {
                {12, 0.05, "edges that fall to the other side of a pixel"});
 }
 
+/// In a small mirror virtual triangles are few and sag: a board 15 mm before a wall 4 m away must hide it.
+TEST(Picture, aBoardCloseToAWallInASmallMirror) {
+  TracedTestScene t;
+  t.camera.eye = {0.3, 0.25, 2.2};
+  t.camera.target = {0, 0, 0};
+  t.camera.fovYRadians = 0.9;
+  const geometry::Mesh mesh = geometry::makeHeightField(
+      32, 32, [](dvec2 at) { return 0.4 * at; },
+      [](dvec2 at) {
+        return geometry::HeightSample{-0.5 * glm::dot(at, at), -at.x, -at.y};
+      });
+  scene::MeshPrimitive curved;
+  curved.positions = mesh.positions, curved.normals = mesh.normals, curved.indices = mesh.indices;
+  t.add(curved, makeMirror(vec3(0.95f)), "curved");
+  t.add(makeQuad({3, -1.2f, 4}, {-6, 0, 0}, {0, 3, 0}), reference::makeUnlit(vec3(0.8f, 0.7f, 0.6f)), "wall");
+  t.add(makeQuad({2.5f, -0.7f, 3.985f}, {-5, 0, 0}, {0, 1.2f, 0}),
+        reference::makeUnlit(vec3(0.1f, 0.2f, 0.7f)), "board");
+  t.finish();
+  Subject subject{"board-and-wall", t.scene, t.world, t.camera, 1};
+  subject.solver = renderer::Solver::Refined;
+  expectWithin(subject, withTurnedNormals(subject.world, 0.01),
+               {12, 0.05, "edges that fall to the other side of a pixel"});
+}
+
 TEST(Picture, concaveMirror) {
   const Subject subject = subjectOf("concave-bowl");
   expectWithin(subject, withTurnedNormals(subject.world, 0.005),

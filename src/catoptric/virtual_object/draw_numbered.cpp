@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "catoptric/core/parallel.h"
+#include "catoptric/virtual_object/rivals.h"
 #include "catoptric/virtual_object/virtual_object_method.h"
 
 namespace catoptric::virtual_object {
@@ -47,7 +48,7 @@ void VirtualObjectMethod::drawNumbersByGl(raster::FrameContext& frame, NumberedM
 }
 
 void VirtualObjectMethod::drawNumbersHere(const raster::FrameContext& frame, NumberedMirror& m,
-                                          bool withDepths) {
+                                          bool withDepths) const {
   const raster::Level& parent = *m.view.parent;
   const NumberPicture picture{.clipFromDraw = mat4(m.view.clipFromDraw),
                               .drawEye = m.view.drawEye,
@@ -62,8 +63,10 @@ void VirtualObjectMethod::drawNumbersHere(const raster::FrameContext& frame, Num
                               .isKept = m.triangles.isKept,
                               .isWanted = m.isNumbered,
                               .triangleParts = m.triangleParts,
-                              .withDepths = withDepths};
+                              .withDepths = withDepths,
+                              .withRivals = m.prepared != nullptr};  // what a flat mirror shows does not sag
   m.drawn = m.raster.draw(*m.objects, picture, m.numbers);
+  settleRivals(m.inLanes.images(), shading_.triangles(), m.numbers);
 }
 
 bool VirtualObjectMethod::hasSurfaces(const Prepared& p) {

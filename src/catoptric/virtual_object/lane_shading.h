@@ -78,6 +78,9 @@ class LaneShading {
     return std::span(images_.positions).first(images_.pixelCount());
   }
 
+  /// What was read, and the bounds it is of.
+  [[nodiscard]] const LaneImages& images() const { return images_; }
+
   /// Those and the directions in which rays go on, with the distance at which they may begin to hit, into
   /// images of the whole level, bottom row first.
   void writeRays(std::span<vec4> origins, std::span<vec4> directions) const;

@@ -179,7 +179,42 @@ class Binner {
   TriangleGroup group_{};
 };
 
+CATOPTRIC_INLINE bool isAny(const EightInts& mask) {
+  return core::toBits(mask) != 0;
+}
+CATOPTRIC_INLINE bool isAny(std::uint32_t mask) {
+  return mask != 0;
+}
+
+/// Some pixels, in one lane or eight: which of them are drawn, what is seen there before and after.
+template <class Real, class Whole>
+struct Drawn {
+  Whole passes;  ///< inside, and not before the mirror
+  Real nearness, stored;
+  Whole number, storedNumber;
+};
+
+/// 2. The farther of two is the second one if it is about as near; seldom.
+template <class Real, class Whole>
+CATOPTRIC_INLINE void keepRival(const Drawn<Real, Whole>& d, float* rivalNearness, std::uint32_t* rivals) {
+  const Whole wins = d.nearness > d.stored;
+  const Real second = wins ? d.stored : d.nearness, first = wins ? d.nearness : d.stored;
+  const Whole isRival = d.passes & (second >= kAboutAsNear * first) & (d.number != d.storedNumber);
+  if (!isAny(isRival)) return;
+  const Whole secondNumber = wins ? d.storedNumber : d.number;
+  Real before;
+  Whole numberBefore;
+  std::memcpy(&before, rivalNearness, sizeof before);
+  std::memcpy(&numberBefore, rivals, sizeof numberBefore);
+  const Whole follows = isRival & (second > before);
+  before = follows ? second : before;
+  numberBefore = follows ? secondNumber : numberBefore;
+  std::memcpy(rivalNearness, &before, sizeof before);
+  std::memcpy(rivals, &numberBefore, sizeof numberBefore);
+}
+
 /// 2. Rows [begin, end) of a triangle, eight columns after the other.
+template <bool kWithRivals>
 CATOPTRIC_INLINE void drawSmall(const SmallTriangle& triangle, int begin, int end,
                                 const NumberRaster::Rows& rows) {
   const EightInts lane{0, 1, 2, 3, 4, 5, 6, 7};
@@ -201,18 +236,24 @@ CATOPTRIC_INLINE void drawSmall(const SmallTriangle& triangle, int begin, int en
       n = least > n ? least : n;
       n = most < n ? most : n;
       const Eight stored = core::load(nearness);
-      const EightInts draws = ((edge[0] | edge[1] | edge[2]) >= 0) & (n > stored) & (n <= core::load(limits));
+      const EightInts passes = ((edge[0] | edge[1] | edge[2]) >= 0) & (n <= core::load(limits)),
+                      draws = passes & (n > stored);
       core::store(nearness, draws ? n : stored);
       EightInts before;
       std::memcpy(&before, numbers, sizeof before);
-      before = draws ? number : before;
-      std::memcpy(numbers, &before, sizeof before);
+      const EightInts after = draws ? number : before;
+      std::memcpy(numbers, &after, sizeof after);
+      if constexpr (kWithRivals)
+        keepRival<Eight, EightInts>({passes, n, stored, number, before},
+                                    rows.rivalNearness + (nearness - rows.nearness),
+                                    rows.rivals + (nearness - rows.nearness));
       nearness += stride, limits += stride, numbers += stride;
       for (int k = 0; k < 3; ++k) edge[k] += t.stepY[k];
     }
   }
 }
 
+template <bool kWithRivals>
 void drawLarge(const NumberRaster::LargeTriangle& t, int begin, int end, const NumberRaster::Rows& rows) {
   std::array<dvec2, 3> px;
   for (std::size_t k = 0; k < 3; ++k)
@@ -221,23 +262,33 @@ void drawLarge(const NumberRaster::LargeTriangle& t, int begin, int end, const N
     const float n = float(weights.x * t.corners[0].nearness + weights.y * t.corners[1].nearness +
                           weights.z * t.corners[2].nearness);
     const std::ptrdiff_t at = std::ptrdiff_t(begin + y) * rows.stride + x;
-    if (n <= rows.nearness[at] || n > rows.limits[at]) return;
+    if (n > rows.limits[at]) return;
+    if constexpr (kWithRivals)
+      keepRival<float, std::uint32_t>({~0u, n, rows.nearness[at], t.number + 1, rows.numbers[at]},
+                                      rows.rivalNearness + at, rows.rivals + at);
+    if (n <= rows.nearness[at]) return;
     rows.nearness[at] = n;
     rows.numbers[at] = t.number + 1;
   });
 }
 
 /// 2. A pixel of a triangle.
+template <bool kWithRivals>
 CATOPTRIC_INLINE void drawFragment(const NumberRaster::Item& item, const NumberRaster::Rows& rows) {
   const float n = item.nearness, stored = rows.nearness[item.at];
-  const std::uint32_t mask = 0u - std::uint32_t((n > stored) & (n <= rows.limits[item.at]));
+  const std::uint32_t passes = 0u - std::uint32_t(n <= rows.limits[item.at]),
+                      mask = passes & (0u - std::uint32_t(n > stored));
   const std::uint32_t bits = std::bit_cast<std::uint32_t>(n),
                       storedBits = std::bit_cast<std::uint32_t>(stored);
   rows.nearness[item.at] = std::bit_cast<float>(storedBits ^ ((storedBits ^ bits) & mask));
   std::uint32_t& number = rows.numbers[item.at];
+  if constexpr (kWithRivals)
+    keepRival<float, std::uint32_t>({passes, n, stored, item.number, number}, rows.rivalNearness + item.at,
+                                    rows.rivals + item.at);
   number ^= (number ^ item.number) & mask;
 }
 
+template <bool kWithRivals>
 struct DrawBand {
   static CATOPTRIC_INLINE void run(const std::vector<NumberRaster::Chunk>& chunks, const int& band,
                                    const int& end, const NumberRaster::Rows& rows) {
@@ -246,11 +297,11 @@ struct DrawBand {
       for (const NumberRaster::Item& item : chunk.bands[std::size_t(band)].items()) {
         const std::uint32_t index = item.at & ~(NumberRaster::kTriangleBit | NumberRaster::kLargeBit);
         if ((item.at & NumberRaster::kTriangleBit) == 0)
-          drawFragment(item, rows);
+          drawFragment<kWithRivals>(item, rows);
         else if ((item.at & NumberRaster::kLargeBit) != 0)
-          drawLarge(chunk.large[index], begin, end, rows);
+          drawLarge<kWithRivals>(chunk.large[index], begin, end, rows);
         else
-          drawSmall(chunk.small[index], begin, end, rows);
+          drawSmall<kWithRivals>(chunk.small[index], begin, end, rows);
       }
   }
 };
@@ -260,11 +311,18 @@ struct DrawBand {
 void NumberRaster::drawBand(const NumberPicture& picture, const PixelRays& rays, int band,
                             NumberImage& image) {
   const int begin = band * kBandRows, end = std::min(begin + kBandRows, picture.bounds.height);
-  const Rows rows{nearness_.data(), limits_.data(), numbers_.data(), picture.bounds.width + kLanes,
+  const bool withRivals = picture.withRivals;
+  const Rows rows{nearness_.data(),    limits_.data(),
+                  numbers_.data(),     withRivals ? rivalNearness_.data() : nullptr,
+                  rivals_.data(),      picture.bounds.width + kLanes,
                   picture.bounds.width};
   beginRows(picture, rays, begin, end, rows);
-  core::runOnWidestVectors<DrawBand>(chunks_, band, end, rows);
+  if (withRivals)
+    core::runOnWidestVectors<DrawBand<true>>(chunks_, band, end, rows);
+  else
+    core::runOnWidestVectors<DrawBand<false>>(chunks_, band, end, rows);
   finishRows(picture, rays, begin, end, rows, image);
+  if (withRivals) findRivals(begin, end, rows, image.hits, image.rivals[std::size_t(band)]);
 }
 
 std::size_t NumberRaster::draw(const raster::TessellatedObjects& objects, const NumberPicture& picture,
@@ -292,6 +350,8 @@ std::size_t NumberRaster::draw(const raster::TessellatedObjects& objects, const 
   const std::size_t pixels = std::size_t(picture.bounds.width) * std::size_t(picture.bounds.height);
   const std::size_t padded = pixels + std::size_t(kLanes) * std::size_t(picture.bounds.height);
   nearness_.resize(padded), limits_.resize(padded), numbers_.resize(padded);
+  if (picture.withRivals) rivalNearness_.resize(padded), rivals_.resize(padded);
+  image.rivals.resize(picture.withRivals ? bands : 0);
   image.hits.resize(pixels), image.depths.resize(picture.withDepths ? pixels : 0);
   const PixelRays rays(picture);
   core::parallelFor(bands, 1, [&](std::size_t begin, std::size_t end) {

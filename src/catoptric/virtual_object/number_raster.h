@@ -15,7 +15,9 @@
 //      screen), not before the mirror (1998, section 3)? Triangles wider than TriangleGroup::kLargestPx, for
 //      which edge functions would not fit, go through item_rasterizer.h; those that reach behind the eye or
 //      far off the picture are cut first.
-//   3. 1 / w to lengths and depths.
+//   3. 1 / w to lengths and depths. Virtual triangles sag behind the curved images that they stand for, so
+//      which of two is nearer is told only if they are further apart than that; else the second one is kept,
+//      too, for the pixel's own ray to decide (rivals.h).
 // Bands are drawn on all cores, each with its triangles in their order, so the result does not depend on
 // their number.
 // Why: Mesa's llvmpipe sets triangles up on one core, at about 0.25 us each, and reading numbers back waits
@@ -47,12 +49,21 @@ struct NumberPicture {
   std::span<const std::uint8_t> isWanted;        ///< by part
   std::span<const std::uint32_t> triangleParts;  ///< by number
   bool withDepths = true;                        ///< else NumberImage::depths are left out
+  bool withRivals = false;                       ///< else NumberImage::rivals are left out
+};
+
+/// A triangle that is nearly as near at a pixel as the one that is seen there.
+struct Rival {
+  std::uint32_t pixel;   ///< of the bounds, row by row
+  std::uint32_t number;  ///< + 1
+  float length;          ///< of the path
 };
 
 /// Of the pixels of NumberPicture::bounds, row by row.
 struct NumberImage {
-  std::vector<uvec2> hits;    ///< number + 1, 0: none; bits of the length of the path
-  std::vector<float> depths;  ///< 0 to 1; empty: left out
+  std::vector<uvec2> hits;                 ///< number + 1, 0: none; bits of the length of the path
+  std::vector<float> depths;               ///< 0 to 1; empty: left out
+  std::vector<std::vector<Rival>> rivals;  ///< in no order, as many pieces as it pleases
 };
 
 struct PixelRays;
@@ -113,6 +124,8 @@ class NumberRaster {
   struct Rows {
     float *nearness, *limits;
     std::uint32_t* numbers;
+    float* rivalNearness;  ///< of the second nearest; null: left out
+    std::uint32_t* rivals;
     int stride, width;
   };
   static constexpr std::uint32_t kTriangleBit = 0x80000000u, kLargeBit = 0x40000000u;
@@ -121,8 +134,8 @@ class NumberRaster {
   void drawBand(const NumberPicture& picture, const PixelRays& rays, int band, NumberImage& image);
 
   std::vector<Chunk> chunks_;
-  std::vector<float> nearness_, limits_;
-  std::vector<std::uint32_t> numbers_;
+  std::vector<float> nearness_, limits_, rivalNearness_;
+  std::vector<std::uint32_t> numbers_, rivals_;
 };
 
 }  // namespace catoptric::virtual_object

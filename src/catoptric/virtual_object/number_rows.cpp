@@ -2,6 +2,7 @@
 #include "catoptric/virtual_object/number_rows.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "catoptric/core/eight_lanes.h"
@@ -32,6 +33,10 @@ struct BeginRows {
       const std::ptrdiff_t at = std::ptrdiff_t(y) * rows.stride;
       std::fill_n(rows.nearness + at, rows.stride, 0.0f);
       std::fill_n(rows.numbers + at, rows.stride, 0u);
+      if (rows.rivalNearness != nullptr) {
+        std::fill_n(rows.rivalNearness + at, rows.stride, 0.0f);
+        std::fill_n(rows.rivals + at, rows.stride, 0u);
+      }
       for (int x = 0; x < width; x += kLanes) {
         const int count = std::min(width - x, kLanes);
         Eight path{};
@@ -71,6 +76,24 @@ struct FinishRows {
   }
 };
 
+struct FindRivals {
+  static CATOPTRIC_INLINE void run(int& begin, int& end, const NumberRaster::Rows& rows,
+                                   std::span<const uvec2>& hits, std::vector<Rival>& found) {
+    for (int y = begin; y < end; ++y)
+      for (int x = 0; x < rows.width; x += kLanes) {
+        const std::ptrdiff_t from = std::ptrdiff_t(y) * rows.stride + x;
+        const Eight n = core::load(rows.nearness + from), rival = core::load(rows.rivalNearness + from);
+        for (unsigned lanes = core::toBits((rival > 0.0f) & (rival >= kAboutAsNear * n)); lanes != 0;
+             lanes &= lanes - 1) {
+          const int i = std::countr_zero(lanes);
+          const auto pixel = std::uint32_t(y * rows.width + x + i);
+          const float length = std::bit_cast<float>(hits[pixel].y);
+          found.push_back({pixel, rows.rivals[from + i], length * n[i] / rival[i]});
+        }
+      }
+  }
+};
+
 }  // namespace
 
 PixelRays::PixelRays(const NumberPicture& picture) {
@@ -95,6 +118,12 @@ void beginRows(const NumberPicture& picture, const PixelRays& rays, int begin, i
 void finishRows(const NumberPicture& picture, const PixelRays& rays, int begin, int end,
                 const NumberRaster::Rows& rows, NumberImage& image) {
   core::runOnWidestVectors<FinishRows>(picture, rays, begin, end, rows, image);
+}
+
+void findRivals(int begin, int end, const NumberRaster::Rows& rows, std::span<const uvec2> hits,
+                std::vector<Rival>& found) {
+  found.clear();
+  core::runOnWidestVectors<FindRivals>(begin, end, rows, hits, found);
 }
 
 }  // namespace catoptric::virtual_object

@@ -225,7 +225,7 @@ class VirtualObjectMethod : public raster::ReflectionMethod {
   void beginFlat(const raster::FrameContext& frame, NumberedMirror& mirror);
   static void markTriangles(const raster::FrameContext& frame, NumberedMirror& mirror);
   void drawNumbersByGl(raster::FrameContext& frame, NumberedMirror& mirror);
-  static void drawNumbersHere(const raster::FrameContext& frame, NumberedMirror& mirror, bool withDepths);
+  void drawNumbersHere(const raster::FrameContext& frame, NumberedMirror& mirror, bool withDepths) const;
   static void countTriangles(raster::FrameContext& frame, const NumberedMirror& mirror);
   /// Is there anything that numbers do not serve?
   [[nodiscard]] static bool hasSurfaces(const Prepared& prepared);

@@ -23,7 +23,7 @@ struct Setting {
   std::array<std::vector<vec3>, kIntervals> screens;
   ReflectorMesh mesh = meshOf(geometry::makeIcosphere(1, 2));
   std::vector<uvec2> parts = std::vector<uvec2>(100, uvec2(1, 0));
-  MirrorPixels pixels{{0, 0, 10, 10}, 2, parts, {std::vector<uvec2>(100), std::vector<float>(100)}};
+  MirrorPixels pixels{{0, 0, 10, 10}, 2, parts, {std::vector<uvec2>(100), std::vector<float>(100), {}}};
 
   explicit Setting(bool isTurned = false) {
     world.positions = {{-1, -1, 2}, {1.05f, -1, 2}, {-1, 1.05f, 2}};

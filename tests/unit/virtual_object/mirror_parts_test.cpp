@@ -160,12 +160,12 @@ TEST(PartPixels, holdEachRayAgainstItsTriangle) {
     rays.words.emplace_back(0, i % 10 == 0 ? 1 : 2);
   }
   const auto length = [](float path) { return std::bit_cast<std::uint32_t>(path); };
-  NumberImage image{std::vector<uvec2>(100, uvec2(1, length(2))), std::vector<float>(100, 0.5f)};
+  NumberImage image{std::vector<uvec2>(100, uvec2(1, length(2))), std::vector<float>(100, 0.5f), {}};
   image.hits[2 * 10 + 2].x = 0;  // nothing drawn
   image.hits[1 * 10 + 1].x = 2;  // a triangle far beside the ray
   std::vector<uvec2> parts(100, uvec2(5, 0));
   parts[3 * 10 + 1].x = 4;  // another part
-  MirrorPixels pixels{{0, 0, 10, 10}, 2, parts, {std::vector<uvec2>(100), std::vector<float>(100)}};
+  MirrorPixels pixels{{0, 0, 10, 10}, 2, parts, {std::vector<uvec2>(100), std::vector<float>(100), {}}};
   pixels.confirmed.hits[0 * 10 + 4] = {9, length(1)};  // nearer
   pixels.confirmed.hits[0 * 10 + 3] = {9, length(3)};  // farther
   confirmPixels(world, rays, {{0, 0, 10, 10}, image, 5}, pixels);

@@ -5,11 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 #include <random>
+#include <span>
+#include <vector>
 
 #include "catoptric/virtual_object/numbered_triangles.h"
 
@@ -51,7 +54,7 @@ struct Cloud {
     view.clipFromDraw = glm::infinitePerspective(1.0f, float(kWidth) / float(kHeight), 0.01f);
   }
 
-  NumberImage draw(bool withDepths = true) {
+  NumberImage draw(bool withDepths = true, bool withRivals = false) {
     std::vector<vec3> screen;
     projectVertices(view, positions, screen);
     const NumberPicture picture{.clipFromDraw = view.clipFromDraw,
@@ -66,7 +69,8 @@ struct Cloud {
                                 .isKept = isKept,
                                 .isWanted = isWanted,
                                 .triangleParts = parts,
-                                .withDepths = withDepths};
+                                .withDepths = withDepths,
+                                .withRivals = withRivals};
     NumberImage image;
     NumberRaster().draw(objects, picture, image);
     return image;
@@ -133,6 +137,60 @@ TEST(NumberRaster, DepthsMayBeLeftOut) {
   EXPECT_EQ(with.depths.size(), std::size_t(kPixels));
   EXPECT_TRUE(without.depths.empty());
   EXPECT_EQ(with.hits, without.hits);
+}
+
+/// Quads that fill the picture, each two triangles of one number; as far away as `distances`, in this order.
+Cloud makeWalls(std::span<const float> distances, float halfWidth) {
+  Cloud cloud(0, 0, 0);
+  for (std::uint32_t k = 0; k < distances.size(); ++k) {
+    for (const vec2 corner : {vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, 1)})
+      cloud.positions.emplace_back(distances[k] * (vec2(0, -0.15f) + halfWidth * corner), -distances[k]);
+    for (const std::uint32_t corner : {0, 1, 2, 0, 2, 3}) cloud.objects.indices.push_back(4 * k + corner);
+    cloud.objects.sourceTriangles.insert(cloud.objects.sourceTriangles.end(), {k, k});
+  }
+  cloud.objects.positions = cloud.positions;
+  cloud.parts.assign(distances.size(), 0);
+  cloud.isKept.assign(2 * distances.size(), 1);
+  return cloud;
+}
+
+/// The pixels at which the triangle of this number + 1 is a rival; its distance must be right.
+std::size_t countRivals(const NumberImage& image, std::uint32_t number, float distance) {
+  std::size_t count = 0;
+  for (const std::vector<Rival>& rivals : image.rivals)
+    for (const Rival& rival : rivals) {
+      if (rival.number != number) continue;
+      ++count;
+      const dvec2 px(rival.pixel % kBounds.width + kBounds.x, rival.pixel / kBounds.width + kBounds.y);
+      const double tangent = std::tan(0.5);
+      const dvec3 ray(tangent * kWidth / kHeight * (2 * (px.x + 0.5) / kWidth - 1),
+                      tangent * (2 * (px.y + 0.5) / kHeight - 1), -1);
+      EXPECT_NEAR(rival.length, distance * glm::length(ray), 1e-4 * distance);
+    }
+  return count;
+}
+
+TEST(NumberRaster, TheSecondIsKeptWhereItIsAboutAsNearInWhateverOrderTheyCome) {
+  for (const float halfWidth : {2.0f, 0.1f, 0.02f})  // wider than 64 pixels, than 8, smaller
+    for (const bool isTurned : {false, true}) {
+      std::vector<float> distances{1.5f, 1.506f, 1.503f, 1.6f};
+      std::vector<std::uint32_t> numbers{1, 2, 3, 4};
+      if (isTurned)
+        std::reverse(distances.begin(), distances.end()), std::reverse(numbers.begin(), numbers.end());
+      Cloud cloud = makeWalls(distances, halfWidth);
+      const NumberImage image = cloud.draw(true, true);
+      const std::uint32_t first = isTurned ? 4 : 1, second = isTurned ? 2 : 3;
+      const auto shown = std::size_t(std::count_if(image.hits.begin(), image.hits.end(),
+                                                   [&](const uvec2& hit) { return hit.x == first; }));
+      EXPECT_GT(shown, 4u);
+      EXPECT_EQ(countRivals(image, second, 1.503f), shown);
+      EXPECT_EQ(countRivals(image, isTurned ? 3 : 2, 1.506f), 0u);  // third
+      EXPECT_EQ(countRivals(image, isTurned ? 1 : 4, 1.6f), 0u);    // too far
+      EXPECT_EQ(countRivals(image, first, 1.5f), 0u);               // itself: both halves of the quad
+      const NumberImage without = cloud.draw();
+      EXPECT_TRUE(without.rivals.empty());
+      EXPECT_EQ(without.hits, image.hits);
+    }
 }
 
 TEST(NumberRaster, HalfAPixelOffIsTold) {
