@@ -17,11 +17,6 @@ namespace {
 
 using core::toBits;
 
-CATOPTRIC_INLINE LaneVector cross(const LaneVector& a, const LaneVector& b) {
-  return {{a.v[1] * b.v[2] - a.v[2] * b.v[1], a.v[2] * b.v[0] - a.v[0] * b.v[2],
-           a.v[0] * b.v[1] - a.v[1] * b.v[0]}};
-}
-
 /// Steps 1 and 2: their triangles, -1 for those that nothing hides.
 CATOPTRIC_INLINE EightInts findHidingTriangles(const LaneView& view, const LaneVector& local,
                                                const LaneVector& toPoint) {
@@ -45,13 +40,10 @@ struct HideLanes {
     if (toBits(hidden) == 0) return;
     Triangles t;
     gather(view.triangles, hidden ? triangles : EightInts{}, t);
-    const LaneVector facet = cross(t.edge1, t.edge2);
-    const Eight fraction = dot(facet, t.position0 - eye) / dot(facet, toPoint);
-    hidden &= (fraction > 0.0f) & (fraction < 1.0f);
+    const PlaneMeeting met = meetPlane(t, eye, toPoint);
+    hidden &= (met.fraction > 0.0f) & (met.fraction < 1.0f);
     const Eight zero{}, one = zero + 1.0f;
-    const LaneVector d = (eye + fraction * toPoint) - t.position0;
-    const Eight a = dot(t.edge1, d), b = dot(t.edge2, d);
-    const Eight u = larger(t.gram11 * a + t.gram12 * b, zero), v = larger(t.gram12 * a + t.gram22 * b, zero);
+    const Eight u = larger(met.u, zero), v = larger(met.v, zero);
     const Eight inside = 1.0f / larger(u + v, one);
     const LaneVector entry = t.position0 + (u * inside) * t.edge1 + (v * inside) * t.edge2;
     const LaneVector n = t.normal0 + (u * inside) * t.normal1 + (v * inside) * t.normal2;

@@ -24,6 +24,7 @@ constexpr float kGrazing = 0.02f;     // of h.n = 2 cos(angle of incidence): bel
 constexpr auto kStraight = float(MirrorLaw::kStraight);
 constexpr auto kShorter = float(search_limits::kShorter);
 constexpr auto kFarOutside = float(search_limits::kFarOutside);
+constexpr float kAsBefore = 0.8f;   // of how much the law failed
 constexpr int kMostShortened = 4;   // in a row; then onwards all the same
 constexpr int kMaxSteps = 12;       // more means that the start was bad
 constexpr int kStepsBehind = 5;     // then a search that is on the back stays there
@@ -36,7 +37,8 @@ struct Search {
   Triangles t;  ///< of `at`
   Eight stepU, stepV, merit;
   EightInts steps, stepsOutside, shortened;
-  EightInts active, wasLost, found{}, lost{}, hard{};
+  Eight lostBy;
+  EightInts active, found{}, lost{}, hard{};
 };
 
 /// Some lanes to where the maps say.
@@ -95,7 +97,7 @@ CATOPTRIC_INLINE void storeAs(void* to, const Value& value) {
 
 CATOPTRIC_INLINE Search resume(const LaneGroup& group) {
   Search s;
-  s.active = fromBits(group.wanted), s.wasLost = loadAs<EightInts>(group.wasLost) != 0;
+  s.active = fromBits(group.wanted), s.lostBy = load(group.lostBy);
   s.at = {loadAs<EightInts>(group.triangle), load(group.u), load(group.v)};
   s.stepU = s.stepV = s.merit = Eight{};
   s.last = s.at;
@@ -122,9 +124,9 @@ struct SearchLanes {
       if (toBits(isSeeded) != 0) restart(view, isSeeded, local, s);
       const Law law = evaluate(s.t, s.at.u, s.at.v, eye, local);
       const EightInts isMet = law.distance <= view.contact;
+      const EightInts wasLost = mayBeStale & (s.lostBy != 0.0f);
+      if (toBits(wasLost) != 0) loseAgain(wasLost, law, eye, local, s);
       const EightInts isFresh = law.squaredSine * law.squaredHalf < kStale * kStale;
-      const EightInts wasLost = mayBeStale & s.wasLost;
-      if (toBits(wasLost) != 0) loseAgain(wasLost & isFresh, law, eye, s);
       isSeeded = mayBeStale & s.active & ~isMet & ~(isFresh & ~wasLost);
       mayBeStale = EightInts{};
       if (toBits(isSeeded) != 0) continue;
@@ -142,32 +144,42 @@ struct SearchLanes {
 
   /// Points on the mirror: the law has no meaning there, and they are seen where they are.
   CATOPTRIC_INLINE static void meet(const EightInts& isMet, const LaneVector& eye, Search& s) {
-    const EightInts isSeen = facesEye(s, eye);
+    const EightInts isSeen = facesEye(s, s.at.u, s.at.v, eye);
     s.found |= s.active & isMet & isSeen, s.lost |= s.active & isMet & ~isSeen;
+    s.lostBy = isMet & ~isSeen ? Eight{} - 1e-20f : s.lostBy;
     s.active &= ~isMet;
   }
 
-  CATOPTRIC_INLINE static EightInts facesEye(const Search& s, const LaneVector& eye) {
-    const LaneVector position = s.t.position0 + s.at.u * s.t.edge1 + s.at.v * s.t.edge2,
-                     normal = s.t.normal0 + s.at.u * s.t.normal1 + s.at.v * s.t.normal2;
+  CATOPTRIC_INLINE static EightInts facesEye(const Search& s, const Eight& u, const Eight& v,
+                                             const LaneVector& eye) {
+    const LaneVector position = s.t.position0 + u * s.t.edge1 + v * s.t.edge2,
+                     normal = s.t.normal0 + u * s.t.normal1 + v * s.t.normal2;
     return dot(normal, eye - position) > 0.0f;
   }
 
-  CATOPTRIC_INLINE static EightInts isStraight(const Law& law) {
-    return law.squaredHalf < kStraight * kStraight;
-  }
-
-  /// What was lost is so still if the ray to the point enters the mirror there, or if Newton's step does not
-  /// lead back from far outside. If not, its place is no good start: a root on the back would hold it.
+  /// What was lost is so still if the ray to the point enters the mirror in that triangle, or if the law
+  /// fails there as it did and Newton's step does not lead back from far outside. If not, its place is no
+  /// good start: a root on the back would hold it.
   CATOPTRIC_INLINE static void loseAgain(const EightInts& which, const Law& law, const LaneVector& eye,
-                                         Search& s) {
+                                         const LaneVector& local, Search& s) {
     const Eight u = s.at.u + law.stepU, v = s.at.v + law.stepV;
     const Eight past0 = smaller(-s.at.v, -v), past1 = smaller(s.at.u + s.at.v, u + v) - 1.0f,
                 past2 = smaller(-s.at.u, -u);
-    const EightInts isAstray = (law.facing > 0.0f) & (larger(larger(past0, past1), past2) > kFarOutside);
-    const EightInts enters = isStraight(law) & (outsideBy(s.at.u, s.at.v) <= 0.0f) & facesEye(s, eye);
+    const Eight ratio = failure(law) / s.lostBy;
+    const EightInts isAstray = (ratio > kAsBefore) & (ratio < 1.0f / kAsBefore) &
+                               (larger(larger(past0, past1), past2) > kFarOutside);
+    const PlaneMeeting met = meetPlane(s.t, eye, local - eye);
+    const EightInts enters = (met.fraction > 0.0f) & (met.fraction < 1.0f) &
+                             (outsideBy(met.u, met.v) <= 0.0f) & facesEye(s, met.u, met.v, eye);
+    s.at.u = which & enters ? met.u : s.at.u, s.at.v = which & enters ? met.v : s.at.v;
     s.lost |= which & (isAstray | enters);
     s.active &= ~s.lost;
+  }
+
+  /// As LanePlace::lostBy.
+  CATOPTRIC_INLINE static Eight failure(const Law& law) {
+    const Eight across = larger(squareRoot(law.squaredSine * law.squaredHalf), Eight{} + 1e-20f);
+    return law.facing < 0.0f ? -across : across;
   }
 
   /// Steps 4 and 5.
@@ -177,8 +189,10 @@ struct SearchLanes {
     s.stepsOutside -= s.active & isFar;
     const EightInts isBehind = (law.facing < 0.0f) & (isLast | (s.steps > kStepsBehind));
     const EightInts isAstray = ~isLast & isFar & (s.stepsOutside > search_limits::kMostStepsOutside);
-    const EightInts isLost = s.active & (isStraight(law) | isBehind | isAstray);
+    const EightInts isStraight = law.squaredHalf < kStraight * kStraight;
+    const EightInts isLost = s.active & (isStraight | isBehind | isAstray);
     s.lost |= isLost;
+    s.lostBy = isLost ? failure(law) : s.lostBy;
     const EightInts isHard =
         (isLast ? law.facing <= kGrazing : s.steps >= kMaxSteps) | ~(law.distance > view.touching);
     s.hard |= s.active & ~isLost & isHard;
@@ -217,6 +231,7 @@ struct SearchLanes {
     storeVector(group.position, (position + rest) + centre);
     storeVector(group.virtualPosition, ((position + lengthening * toPosition) + rest) + centre);
     storeAs(group.triangle, s.at.triangle), store(group.u, s.at.u), store(group.v, s.at.v);
+    store(group.lostBy, s.lostBy);
     group.found = toBits(s.found), group.lost = toBits(s.lost), group.hard = toBits(s.hard);
     group.goesOn = toBits(s.active);
     group.isOutside = group.found & toBits(outsideBy(s.at.u, s.at.v) > kOutside);
@@ -265,7 +280,7 @@ void moveLane(const LaneGroup& from, std::size_t i, LaneGroup& to, std::size_t j
   for (int k = 0; k < 3; ++k) to.point[k][j] = from.point[k][i];
   to.vertex[j] = from.vertex[i];
   to.triangle[j] = from.triangle[i], to.u[j] = from.u[i], to.v[j] = from.v[i];
-  to.wasLost[j] = from.wasLost[i];
+  to.lostBy[j] = from.lostBy[i];
   const LaneState& a = from.state;
   LaneState& b = to.state;
   b.triangle[j] = a.triangle[i], b.u[j] = a.u[i], b.v[j] = a.v[i];

@@ -74,9 +74,11 @@ struct LaneView {
 struct LanePlace {
   std::int32_t triangle = -1;  ///< -1: there was none
   float u = 0, v = 0;
-  std::int32_t wasLost = 0;  ///< it gave up there
+  /// 0, or by how much the law failed where it gave up: the half vector's part across the normal, < 0 on the
+  /// mirror's back.
+  float lostBy = 0;
 
-  [[nodiscard]] bool isSeen() const { return triangle >= 0 && wasLost == 0; }
+  [[nodiscard]] bool isSeen() const { return triangle >= 0 && lostBy == 0; }
 };
 using LanePlaces = std::vector<LanePlace>;
 
@@ -94,9 +96,9 @@ struct alignas(64) LaneGroup {
   LaneFloats point[3];            ///< in: Q, world
   std::int32_t triangle[kLanes];  ///< in: as LanePlace; out: where the search stands
   LaneFloats u = {}, v = {};
-  std::int32_t wasLost[kLanes] = {};  ///< in: as LanePlace
-  bool hasBegun = false;              ///< in: searchLanes() left it before it was ready
-  LaneState state;                    ///< if so
+  LaneFloats lostBy = {};  ///< in: as LanePlace; out: of those in `lost`
+  bool hasBegun = false;   ///< in: searchLanes() left it before it was ready
+  LaneState state;         ///< if so
 
   unsigned hidden = 0;  ///< out of hideLanes(): mirrored where the mirror hides them
 

@@ -46,6 +46,10 @@ CATOPTRIC_INLINE LaneVector broadcast(const vec3& a) {
 CATOPTRIC_INLINE Eight dot(const LaneVector& a, const LaneVector& b) {
   return core::dot(a.v, b.v);
 }
+CATOPTRIC_INLINE LaneVector cross(const LaneVector& a, const LaneVector& b) {
+  return {{a.v[1] * b.v[2] - a.v[2] * b.v[1], a.v[2] * b.v[0] - a.v[0] * b.v[2],
+           a.v[0] * b.v[1] - a.v[1] * b.v[0]}};
+}
 CATOPTRIC_INLINE Eight smaller(const Eight& a, const Eight& b) {
   return a < b ? a : b;
 }
@@ -82,6 +86,22 @@ CATOPTRIC_INLINE void gather(std::span<const LaneTriangle> from, const EightInts
   t.position0 = vector(0), t.edge1 = vector(3), t.edge2 = vector(6);
   t.normal0 = vector(9), t.normal1 = vector(12), t.normal2 = vector(15);
   t.gram11 = columns[18], t.gram12 = columns[19], t.gram22 = columns[20];
+}
+
+/// Where a line meets a triangle's plane.
+struct PlaneMeeting {
+  Eight fraction;  ///< of the way from `origin` on, `along` long
+  Eight u, v;
+};
+CATOPTRIC_INLINE PlaneMeeting meetPlane(const Triangles& t, const LaneVector& origin,
+                                        const LaneVector& along) {
+  const LaneVector facet = cross(t.edge1, t.edge2);
+  PlaneMeeting meeting;
+  meeting.fraction = dot(facet, t.position0 - origin) / dot(facet, along);
+  const LaneVector d = (origin + meeting.fraction * along) - t.position0;
+  const Eight a = dot(t.edge1, d), b = dot(t.edge2, d);
+  meeting.u = t.gram11 * a + t.gram12 * b, meeting.v = t.gram12 * a + t.gram22 * b;
+  return meeting;
 }
 
 /// As LaneLaw.

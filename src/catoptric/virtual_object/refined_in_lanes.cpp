@@ -39,7 +39,7 @@ void setLane(LaneGroup& group, std::size_t lane, std::size_t vertex, const vec3&
   group.vertex[lane] = vertex;
   for (int k = 0; k < 3; ++k) group.point[k][lane] = point[k];
   group.triangle[lane] = place.triangle, group.u[lane] = place.u, group.v[lane] = place.v;
-  group.wasLost[lane] = place.wasLost;
+  group.lostBy[lane] = place.lostBy;
 }
 
 }  // namespace
@@ -81,15 +81,21 @@ void VirtualObjectSolver::conclude(const VertexSink& sink, const LaneGroup& grou
     write(lane, isOutside(lane) ? VertexKind::PastBoundary : VertexKind::Reflected);
   });
   if (sink.places != nullptr)
-    forEachLane(group.found | group.lost, [&](std::size_t lane) {
-      (*sink.places)[group.vertex[lane]] = {group.triangle[lane], group.u[lane], group.v[lane],
-                                            std::int32_t(group.lost >> lane & 1u)};
+    forEachLane(group.found, [&](std::size_t lane) {
+      (*sink.places)[group.vertex[lane]] = {group.triangle[lane], group.u[lane], group.v[lane]};
     });
   forEachLane(group.lost, [&](std::size_t lane) {
     const dvec3 point(sink.scenePoints[group.vertex[lane]]);
     const SurfacePoint at{std::uint32_t(group.triangle[lane]), group.u[lane], group.v[lane]};
     const MirrorLaw law = evaluateMirrorLaw(mesh_->triangles()[at.triangle], at.u, at.v, eye_, point);
-    sink.write(group.vertex[lane], placeUnreflected({at, law}, point).checked());
+    const VirtualVertex vertex = placeUnreflected({at, law}, point).checked();
+    sink.write(group.vertex[lane], vertex);
+    if (sink.places == nullptr) return;
+    // Where the ray enters the mirror tells it the next time, else what the hidden map shows there.
+    const bool enters = law.isStraight() && glm::dot(law.normal, law.toEye) > 0;
+    const SurfacePoint& kept = enters || vertex.kind == VertexKind::None ? at : vertex.at;
+    (*sink.places)[group.vertex[lane]] = {std::int32_t(kept.triangle), float(kept.u), float(kept.v),
+                                          group.lostBy[lane]};
   });
   forEachLane(group.hard, [&](std::size_t lane) { solveHard(sink, group.vertex[lane]); });
 }
@@ -108,7 +114,7 @@ void VirtualObjectSolver::solveHard(const VertexSink& sink, std::size_t i) const
   sink.write(i, vertex->checked());
   if (place == nullptr) return;
   const bool isFound = vertex->kind == VertexKind::Reflected || vertex->kind == VertexKind::PastBoundary;
-  *place = {isFound ? std::int32_t(vertex->at.triangle) : -1, float(vertex->at.u), float(vertex->at.v), 0};
+  *place = {isFound ? std::int32_t(vertex->at.triangle) : -1, float(vertex->at.u), float(vertex->at.v)};
 }
 
 /// Writes those that are surely hidden, and wants them no more.

@@ -241,8 +241,8 @@ TEST(Lanes, placesOfAMirrorThatHadMoreTrianglesDoNoHarm) {
   std::vector<vec3> placed(points.size());
   std::vector<VertexKind> kinds(points.size()), kindsAnew(points.size());
   solver.compute(Solver::Refined, points, placed, kindsAnew);
-  for (const std::int32_t wasLost : {0, 1}) {
-    LanePlaces places(points.size(), {1 << 30, 0, 0, wasLost});
+  for (const float lostBy : {0.0f, 0.1f}) {
+    LanePlaces places(points.size(), {1 << 30, 0, 0, lostBy});
     solver.compute(Solver::Refined, points, placed, kinds, {}, {}, &places);
     EXPECT_EQ(kinds, kindsAnew);
   }
