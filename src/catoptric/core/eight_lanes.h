@@ -48,6 +48,10 @@ CATOPTRIC_INLINE Eight larger(const Eight& a, const Eight& b) {
   return a > b ? a : b;
 }
 
+CATOPTRIC_INLINE Eight smaller(const Eight& a, const Eight& b) {
+  return a < b ? a : b;
+}
+
 /// A bit for each lane that holds.
 CATOPTRIC_INLINE unsigned toBits(const EightInts& holds) {
   EightInts bits = holds & EightInts{1, 2, 4, 8, 16, 32, 64, 128};

@@ -24,6 +24,7 @@ using core::EightInts;
 using core::Eights;
 using core::larger;
 using core::load;
+using core::smaller;
 using core::squareRoot;
 using core::store;
 
@@ -49,9 +50,6 @@ CATOPTRIC_INLINE Eight dot(const LaneVector& a, const LaneVector& b) {
 CATOPTRIC_INLINE LaneVector cross(const LaneVector& a, const LaneVector& b) {
   return {{a.v[1] * b.v[2] - a.v[2] * b.v[1], a.v[2] * b.v[0] - a.v[0] * b.v[2],
            a.v[0] * b.v[1] - a.v[1] * b.v[0]}};
-}
-CATOPTRIC_INLINE Eight smaller(const Eight& a, const Eight& b) {
-  return a < b ? a : b;
 }
 CATOPTRIC_INLINE LaneVector loadVector(const LaneFloats* from) {
   return {{load(from[0]), load(from[1]), load(from[2])}};

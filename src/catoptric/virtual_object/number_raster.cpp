@@ -21,6 +21,8 @@ namespace {
 using core::Eight;
 using core::EightInts;
 using core::kLanes;
+using core::larger;
+using core::smaller;
 using LargeTriangle = NumberRaster::LargeTriangle;
 using SmallTriangle = NumberRaster::SmallTriangle;
 
@@ -179,6 +181,12 @@ class Binner {
   TriangleGroup group_{};
 };
 
+CATOPTRIC_INLINE float smaller(float a, float b) {
+  return a < b ? a : b;
+}
+CATOPTRIC_INLINE float larger(float a, float b) {
+  return a > b ? a : b;
+}
 CATOPTRIC_INLINE bool isAny(const EightInts& mask) {
   return core::toBits(mask) != 0;
 }
@@ -197,10 +205,10 @@ struct Drawn {
 /// 2. The farther of two is the second one if it is about as near; seldom.
 template <class Real, class Whole>
 CATOPTRIC_INLINE void keepRival(const Drawn<Real, Whole>& d, float* rivalNearness, std::uint32_t* rivals) {
-  const Whole wins = d.nearness > d.stored;
-  const Real second = wins ? d.stored : d.nearness, first = wins ? d.nearness : d.stored;
+  const Real second = smaller(d.nearness, d.stored), first = larger(d.nearness, d.stored);
   const Whole isRival = d.passes & (second >= kAboutAsNear * first) & (d.number != d.storedNumber);
   if (!isAny(isRival)) return;
+  const Whole wins = d.nearness > d.stored;
   const Whole secondNumber = wins ? d.storedNumber : d.number;
   Real before;
   Whole numberBefore;

@@ -16,15 +16,12 @@ namespace {
 using core::Eight;
 using core::EightInts;
 using core::larger;
+using core::smaller;
 using core::toBits;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kSnap = 1.0f / 32;  // rasterizers round corners to 1/16 of a pixel at worst, most to 1/256
 constexpr std::size_t kVerticesPerTask = 16384, kTrianglesPerTask = 4096;
-
-CATOPTRIC_INLINE Eight smaller(const Eight& a, const Eight& b) {
-  return a < b ? a : b;
-}
 
 CATOPTRIC_INLINE Eight absolute(const Eight& a) {
   return larger(a, -a);
