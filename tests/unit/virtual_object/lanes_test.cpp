@@ -236,6 +236,7 @@ TEST(Lanes, placesOfAMirrorThatHadMoreTrianglesDoNoHarm) {
   const VirtualObjectSolver solver(mesh, {0.4, 0.9, 2.6}, 20.0);
   std::mt19937 random(12);
   std::vector<vec3> points;
+  points.reserve(300);
   for (int i = 0; i < 300; ++i)
     points.emplace_back(mesh.centre() + (1.1 + 0.01 * i) * mesh.radius() * randomDirection(random));
   std::vector<vec3> placed(points.size());
