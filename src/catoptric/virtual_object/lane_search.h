@@ -10,8 +10,9 @@
 //   3. Steps that leave their triangle walk over the mesh, lane by lane (mesh_walk.h); past the end of an
 //      open mirror the last triangle is extrapolated.
 //   4. Three ends say that nothing is reflected: the mirror's back, at a root or for long; the place where
-//      the ray to the point goes straight into the mirror, where h vanishes; too many steps far outside. The
-//      last two are asked again first in the next frame; if they do not hold, the search begins anew.
+//      the ray to the point goes straight into the mirror, where h vanishes; too many steps far outside. In
+//      the next frame it is asked first whether the ray enters the triangle that hid the point, or whether
+//      the law fails there as it did; if neither, the search begins anew.
 //   5. What is not easy - nearly touching the mirror, grazing, no quick convergence - is handed back for the
 //      double search. So what is found, and for which vertices, is what that one finds. A point that lies on
 //      the mirror, to within what floats tell, is seen where it is: the law has no meaning there.
