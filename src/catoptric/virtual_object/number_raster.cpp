@@ -330,7 +330,7 @@ void NumberRaster::drawBand(const NumberPicture& picture, const PixelRays& rays,
   else
     core::runOnWidestVectors<DrawBand<false>>(chunks_, band, end, rows);
   finishRows(picture, rays, begin, end, rows, image);
-  if (withRivals) findRivals(begin, end, rows, image.hits, image.rivals[std::size_t(band)]);
+  if (withRivals) findRivals(begin, end, rows, image.hits, image.depths, image.rivals[std::size_t(band)]);
 }
 
 std::size_t NumberRaster::draw(const raster::TessellatedObjects& objects, const NumberPicture& picture,
@@ -364,6 +364,13 @@ std::size_t NumberRaster::draw(const raster::TessellatedObjects& objects, const 
   const PixelRays rays(picture);
   core::parallelFor(bands, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t band = begin; band < end; ++band) drawBand(picture, rays, int(band), image);
+  });
+  core::parallelFor(image.rivals.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t band = begin; band < end; ++band) {
+      const int first = int(band) * kBandRows;
+      findNeighbours(picture, first, std::min(first + kBandRows, picture.bounds.height), image,
+                     image.rivals[band]);
+    }
   });
   std::size_t drawn = 0;
   for (const Chunk& chunk : chunks_) drawn += chunk.drawn;

@@ -17,7 +17,8 @@
 //      far off the picture are cut first.
 //   3. 1 / w to lengths and depths. Virtual triangles sag behind the curved images that they stand for, so
 //      which of two is nearer is told only if they are further apart than that; else the second one is kept,
-//      too, for the pixel's own ray to decide (rivals.h).
+//      too, for the pixel's own ray to decide (rivals.h). So are the neighbours' triangles of pixels that
+//      show none: at the mirror's rim, where all is squeezed, a wall may end half a pixel too soon.
 // Bands are drawn on all cores, each with its triangles in their order, so the result does not depend on
 // their number.
 // Why: Mesa's llvmpipe sets triangles up on one core, at about 0.25 us each, and reading numbers back waits
@@ -52,11 +53,13 @@ struct NumberPicture {
   bool withRivals = false;                       ///< else NumberImage::rivals are left out
 };
 
-/// A triangle that is nearly as near at a pixel as the one that is seen there.
+/// A triangle that is nearly as near at a pixel as the one that is seen there; or, where none is, that is
+/// seen beside it.
 struct Rival {
   std::uint32_t pixel;   ///< of the bounds, row by row
   std::uint32_t number;  ///< + 1
   float length;          ///< of the path
+  float depth;           ///< 0 where NumberImage::depths are left out
 };
 
 /// Of the pixels of NumberPicture::bounds, row by row.

@@ -78,7 +78,8 @@ struct FinishRows {
 
 struct FindRivals {
   static CATOPTRIC_INLINE void run(int& begin, int& end, const NumberRaster::Rows& rows,
-                                   std::span<const uvec2>& hits, std::vector<Rival>& found) {
+                                   std::span<const uvec2>& hits, std::span<const float>& depths,
+                                   std::vector<Rival>& found) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < rows.width; x += kLanes) {
         const std::ptrdiff_t from = std::ptrdiff_t(y) * rows.stride + x;
@@ -88,7 +89,8 @@ struct FindRivals {
           const int i = std::countr_zero(lanes);
           const auto pixel = std::uint32_t(y * rows.width + x + i);
           const float length = std::bit_cast<float>(hits[pixel].y);
-          found.push_back({pixel, rows.rivals[from + i], length * n[i] / rival[i]});
+          found.push_back({pixel, rows.rivals[from + i], length * n[i] / rival[i],
+                           depths.empty() ? 0.0f : depths[pixel]});
         }
       }
   }
@@ -121,9 +123,35 @@ void finishRows(const NumberPicture& picture, const PixelRays& rays, int begin, 
 }
 
 void findRivals(int begin, int end, const NumberRaster::Rows& rows, std::span<const uvec2> hits,
-                std::vector<Rival>& found) {
+                std::span<const float> depths, std::vector<Rival>& found) {
   found.clear();
-  core::runOnWidestVectors<FindRivals>(begin, end, rows, hits, found);
+  core::runOnWidestVectors<FindRivals>(begin, end, rows, hits, depths, found);
+}
+
+void findNeighbours(const NumberPicture& picture, int begin, int end, const NumberImage& image,
+                    std::vector<Rival>& found) {
+  const gl::Scissor& b = picture.bounds;
+  for (int y = begin; y < end; ++y) {
+    const std::ptrdiff_t first = std::ptrdiff_t(y) * b.width;
+    const uvec2 *here = image.hits.data() + first, *below = y > 0 ? here - b.width : here,
+                *above = y + 1 < b.height ? here + b.width : here;
+    const uvec2* ids = picture.parentIds.data() + std::ptrdiff_t(b.y + y) * picture.widthPx + b.x;
+    for (int x = 0; x < b.width; ++x) {
+      if (here[x].x != 0) continue;
+      const uvec2* beside[] = {here + std::max(x - 1, 0), here + std::min(x + 1, b.width - 1), below + x,
+                               above + x};
+      if ((beside[0]->x | beside[1]->x | beside[2]->x | beside[3]->x) == 0) continue;
+      if (ids[x].y != picture.parentWord) continue;
+      std::uint32_t last = 0;
+      for (const uvec2* hit : beside) {
+        if (hit->x == 0 || hit->x == last) continue;
+        last = hit->x;
+        const auto at = std::size_t(hit - image.hits.data());
+        found.push_back({std::uint32_t(first + x), hit->x, std::bit_cast<float>(hit->y),
+                         image.depths.empty() ? 0.0f : image.depths[at]});
+      }
+    }
+  }
 }
 
 }  // namespace catoptric::virtual_object

@@ -33,6 +33,11 @@ void finishRows(const NumberPicture& picture, const PixelRays& rays, int begin, 
 
 /// Of rows [begin, end), whose hits are there: where the second nearest triangle is nearly as near.
 void findRivals(int begin, int end, const NumberRaster::Rows& rows, std::span<const uvec2> hits,
-                std::vector<Rival>& found);
+                std::span<const float> depths, std::vector<Rival>& found);
+
+/// Of rows [begin, end), once all rows have their hits: at pixels of the mirror that show nothing, what is
+/// shown beside them. Added to `found`.
+void findNeighbours(const NumberPicture& picture, int begin, int end, const NumberImage& image,
+                    std::vector<Rival>& found);
 
 }  // namespace catoptric::virtual_object

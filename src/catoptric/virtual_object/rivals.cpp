@@ -50,21 +50,31 @@ struct Settle {
   }
 
   static CATOPTRIC_INLINE void run(const Settle& self, const std::vector<Rival>& rivals,
-                                   std::vector<uvec2>& hits) {
+                                   NumberImage& numbers) {
     for (std::size_t first = 0; first < rivals.size(); first += std::size_t(kLanes)) {
       const std::size_t count = std::min(rivals.size() - first, std::size_t(kLanes));
       const Rival* of[kLanes];
       std::uint32_t seen[kLanes], second[kLanes];
+      lanes::Mask isEmpty;
       for (std::size_t i = 0; i < std::size_t(kLanes); ++i) {
         of[i] = &rivals[first + std::min(i, count - 1)];
-        seen[i] = hits[of[i]->pixel].x, second[i] = of[i]->number;
+        const std::uint32_t number = numbers.hits[of[i]->pixel].x;
+        isEmpty.v[i] = number == 0 ? -1 : 0;
+        second[i] = of[i]->number, seen[i] = number == 0 ? second[i] : number;
       }
       const Rays rays = self.loadRays(of);
       const LaneShader::RayHit one = self.meet(rays, seen), other = self.meet(rays, second);
-      const unsigned isOther = core::toBits((other.isHit && other.t < one.t).v);
-      for (std::size_t i = 0; i < count; ++i)
-        if ((isOther >> i & 1u) != 0)
-          hits[of[i]->pixel] = {second[i], std::bit_cast<std::uint32_t>(of[i]->length)};
+      const unsigned isOther = core::toBits((other.isHit && (isEmpty || other.t < one.t)).v);
+      for (std::size_t i = 0; i < count; ++i) {
+        if ((isOther >> i & 1u) == 0) continue;
+        bool isNearest = true;  // of those for the same pixel
+        for (std::size_t k = 0; k < i; ++k)
+          isNearest = isNearest && (of[k]->pixel != of[i]->pixel || (isOther >> k & 1u) == 0 ||
+                                    other.t.v[i] < other.t.v[k]);
+        if (!isNearest) continue;
+        numbers.hits[of[i]->pixel] = {second[i], std::bit_cast<std::uint32_t>(of[i]->length)};
+        if (!numbers.depths.empty()) numbers.depths[of[i]->pixel] = of[i]->depth;
+      }
     }
   }
 };
@@ -77,7 +87,7 @@ void settleRivals(const LaneImages& images, const SceneTriangles& triangles, Num
     shader.u_vertices = triangles.vertexTexels().data();
     const Settle settle{images, triangles, shader};
     for (std::size_t i = begin; i < end; ++i)
-      core::runOnWidestVectors<Settle>(settle, numbers.rivals[i], numbers.hits);
+      core::runOnWidestVectors<Settle>(settle, numbers.rivals[i], numbers);
   });
 }
 

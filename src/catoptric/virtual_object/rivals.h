@@ -3,6 +3,7 @@
 //
 // In:  hits as NumberRaster found them, with a second triangle at some pixels; the pixels' rays.
 // Out: at those pixels, the triangle that the ray meets first, with its distance.
+// Where none is seen, but beside it: does the ray meet what is seen there?
 // The ray is that of ray tracing: the second triangle is seen if the ray meets it, and before the plane of
 // the first one. Whether it meets the first one itself is not asked, for near an edge it may meet its
 // neighbour, and what lies behind both would show through. Why: virtual triangles are flat and the images

@@ -159,7 +159,7 @@ std::size_t countRivals(const NumberImage& image, std::uint32_t number, float di
   std::size_t count = 0;
   for (const std::vector<Rival>& rivals : image.rivals)
     for (const Rival& rival : rivals) {
-      if (rival.number != number) continue;
+      if (rival.number != number || image.hits[rival.pixel].x == 0) continue;
       ++count;
       const dvec2 px(rival.pixel % kBounds.width + kBounds.x, rival.pixel / kBounds.width + kBounds.y);
       const double tangent = std::tan(0.5);
@@ -191,6 +191,34 @@ TEST(NumberRaster, TheSecondIsKeptWhereItIsAboutAsNearInWhateverOrderTheyCome) {
       EXPECT_TRUE(without.rivals.empty());
       EXPECT_EQ(without.hits, image.hits);
     }
+}
+
+TEST(NumberRaster, WhereNothingIsShownWhatIsBesideIsKept) {
+  Cloud cloud = makeWalls(std::vector<float>{1.5f}, 0.1f);
+  for (std::size_t i = 0; i < cloud.ids.size(); i += 5) cloud.ids[i].y = 6;  // no mirror
+  const NumberImage image = cloud.draw(true, true);
+  std::vector<int> kept(image.hits.size(), 0);
+  for (const std::vector<Rival>& rivals : image.rivals)
+    for (const Rival& rival : rivals) {
+      EXPECT_EQ(rival.number, 1u);
+      EXPECT_GT(rival.depth, 0.0f);
+      ++kept[rival.pixel];
+    }
+  int wanted = 0;
+  for (int y = 0; y < kBounds.height; ++y)
+    for (int x = 0; x < kBounds.width; ++x) {
+      const auto isShown = [&](int i, int j) {
+        return i >= 0 && j >= 0 && i < kBounds.width && j < kBounds.height &&
+               image.hits[std::size_t(j * kBounds.width + i)].x != 0;
+      };
+      const bool isMirror = (std::size_t(kBounds.y + y) * kWidth + std::size_t(kBounds.x + x)) % 5 != 0;
+      const bool isWanted =
+          isMirror && !isShown(x, y) &&
+          (isShown(x - 1, y) || isShown(x + 1, y) || isShown(x, y - 1) || isShown(x, y + 1));
+      EXPECT_EQ(kept[std::size_t(y * kBounds.width + x)] > 0, isWanted) << x << ' ' << y;
+      wanted += isWanted ? 1 : 0;
+    }
+  EXPECT_GT(wanted, 30);
 }
 
 TEST(NumberRaster, HalfAPixelOffIsTold) {
