@@ -70,6 +70,12 @@ struct BallAndMirror {
   [[nodiscard]] Subject subject(const char* name) const { return {name, t.scene, t.world, t.camera, 2}; }
 };
 
+void addCurvedMirror(TracedTestScene& t, const geometry::Mesh& mesh) {
+  scene::MeshPrimitive curved;
+  curved.positions = mesh.positions, curved.normals = mesh.normals, curved.indices = mesh.indices;
+  t.add(curved, makeMirror(vec3(0.95f)), "curved");
+}
+
 TEST(Picture, sceneWithoutMirrors) {
   const Subject subject = subjectOf("four-spheres");
   scene::Scene plain = subject.scene;
@@ -127,9 +133,7 @@ TEST(Picture, flatBehindCurvedShowsWhatLiesBehindIt) {
       [](dvec2 at) {
         return geometry::HeightSample{-0.06 * glm::dot(at, at), -0.12 * at.x, -0.12 * at.y};
       });
-  scene::MeshPrimitive curved;
-  curved.positions = mesh.positions, curved.normals = mesh.normals, curved.indices = mesh.indices;
-  t.add(curved, makeMirror(vec3(0.95f)), "curved");
+  addCurvedMirror(t, mesh);
   t.add(makeQuad({2, 0.3f, 2.4f}, {-4, 0, 0}, {0, 2.4f, 0}), makeMirror(), "flat");
   t.add(makeQuad({-3, -2, -0.7f}, {6, 0, 0}, {0, 7, 0}), reference::makeUnlit(vec3(0.8f, 0.2f, 0.1f)),
         "wall");
@@ -173,9 +177,7 @@ TEST(Picture, convexMirrorInAFrame) {
         return geometry::HeightSample{-0.35 * squared - 0.9 * squared * squared,
                                       -0.7 * at.x - 3.6 * squared * at.x, 0};
       });
-  scene::MeshPrimitive curved;
-  curved.positions = mesh.positions, curved.normals = mesh.normals, curved.indices = mesh.indices;
-  t.add(curved, makeMirror(vec3(0.95f)), "curved");
+  addCurvedMirror(t, mesh);
   const auto addSide = [&](const vec2& corner, const vec3& along, const vec3& colour) {
     t.add(makeQuad(vec3(corner, -0.205f), {0, 0, 0.15f}, along), reference::makeUnlit(colour), "side");
   };
@@ -201,9 +203,7 @@ TEST(Picture, aBoardCloseToAWallInASmallMirror) {
       [](dvec2 at) {
         return geometry::HeightSample{-0.5 * glm::dot(at, at), -at.x, -at.y};
       });
-  scene::MeshPrimitive curved;
-  curved.positions = mesh.positions, curved.normals = mesh.normals, curved.indices = mesh.indices;
-  t.add(curved, makeMirror(vec3(0.95f)), "curved");
+  addCurvedMirror(t, mesh);
   t.add(makeQuad({3, -1.2f, 4}, {-6, 0, 0}, {0, 3, 0}), reference::makeUnlit(vec3(0.8f, 0.7f, 0.6f)), "wall");
   t.add(makeQuad({2.5f, -0.7f, 3.985f}, {-5, 0, 0}, {0, 1.2f, 0}),
         reference::makeUnlit(vec3(0.1f, 0.2f, 0.7f)), "board");

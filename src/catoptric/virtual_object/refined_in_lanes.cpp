@@ -3,10 +3,9 @@
 // depends on.
 //
 // Vertices and searches wait until eight of their kind are there:
-//   1. Not seen in the last frame: surely hidden by the mirror? Then no search. What was seen is not asked:
-//   if
-//      it is hidden now, its search finds nothing, for a convex mirror lies behind the tangent plane of every
-//      root.
+//   1. Not seen in the last frame: surely hidden by the mirror? Then no search. What was seen is not asked,
+//      for if it is hidden now, its search finds nothing: a convex mirror lies behind the tangent plane of
+//      every root.
 //   2. What is not hidden is searched together (lane_search.h), until only a few of eight go on.
 //   3. These go on together.
 //   What is not easy goes to the double search, from where it was found last or from its own seed.
